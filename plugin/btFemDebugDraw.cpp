@@ -20,7 +20,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr btScalar kHead = btScalar(0.2);  // of an arrow, as a share of its length
+constexpr btScalar kHead = btScalar(0.2);  // head of an arrow, as a share of its length
 
 void drawElements(const btSoftBody& soft, btIDebugDraw& drawer, const btFemDrawSettings& settings)
 {
@@ -39,7 +39,7 @@ void drawStressFree(const FemSoftBody& fem, btIDebugDraw& drawer, const btFemDra
     const btFemRigidFit fit(fem);
     for (const Triangle& t : fem.m_body.m_model->mesh().surface())
         for (int k = 0; k < 3; ++k)
-            if (t[k] < t[(k + 1) % 3])  // every edge once: the other triangle has it the other way round
+            if (t[k] < t[(k + 1) % 3])  // every edge once: the adjacent triangle has it in the opposite direction
                 drawer.drawLine(fit.place(t[k]), fit.place(t[(k + 1) % 3]), settings.m_restColor);
 }
 

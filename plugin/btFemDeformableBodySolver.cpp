@@ -25,8 +25,8 @@ namespace
 
 using Bodies = btAlignedObjectArray<btSoftBody*>;
 
-// Bullet's deformable solver reads what only its own file readers make, and never ends its search along links where
-// there are none.
+// Bullet's deformable solver reads arrays that only its own file readers fill, and its search along links never ends
+// without links.
 bool isForBullet(const btSoftBody& body)
 {
     const int tets = body.m_tetras.size();
@@ -34,19 +34,19 @@ bool isForBullet(const btSoftBody& body)
            (body.m_tetraScratches.size() >= tets && body.m_tetraScratchesTn.size() >= tets && body.m_links.size() > 0);
 }
 
-constexpr btScalar kUsualStep = btScalar(1) / 60;  // [s]; which a body is made ready for in a step that is none
+constexpr btScalar kUsualStep = btScalar(1) / 60;  // [s]; for bodies prepared in a step of invalid length
 
-// What is remembered of a tetrahedral body.
+// State of a tetrahedral body.
 struct Known
 {
     const btSoftBody* m_body;
-    int m_id;                       // in the broadphase: addresses are reused
-    int m_tets;                     // that it had
-    btFemForceMaterial m_material;  // of the forces, as it was last looked at
-    std::string m_rejection;        // why it was left to Bullet
+    int m_id;                       // broadphase id, because addresses are reused
+    int m_tets;                     // former number of tetrahedra
+    btFemForceMaterial m_material;  // material of the forces at the last check
+    std::string m_rejection;        // reason why it was left to Bullet
 };
 
-// A FEM body as the user has it, while the world's own loops over soft bodies must leave it alone.
+// Hides a FEM body from the world's own loops over soft bodies.
 struct Aside
 {
     btSoftBody* m_body;
@@ -82,9 +82,9 @@ struct btFemDeformableBodySolver::Impl
     btFemSoftBodySolver m_fem;
     btFemDeformableForces m_forces;
     const Bodies* m_world = nullptr;  // all bodies
-    Bodies m_plain;                   // Bullet moves them; in the world's order
-    Bodies m_ours, m_femBodies;       // the others, and those of them that move
-    Bodies m_reported;                // these, as often as the world has them, and those that could not become FEM
+    Bodies m_plain;                   // bodies moved by Bullet, in the world's order
+    Bodies m_ours, m_femBodies;       // all other bodies, and the FEM bodies among them
+    Bodies m_reported;  // FEM bodies, as often as the world contains them, and bodies that could not become FEM
     Bodies m_femBefore, m_plainBefore;
     std::vector<Known> m_known;
     std::vector<Aside> m_aside;
@@ -106,7 +106,8 @@ void btFemDeformableBodySolver::Impl::forgetRemoved(const Bodies& world)
     m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());
 }
 
-// Material and factor before the body is FEM, so that one that cannot be is Bullet's from the beginning.
+// Sets material and factor before the body becomes FEM, so that an unsuitable body stays with Bullet from the
+// beginning.
 bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
 {
     if (body.m_tetras.size() == 0) return false;
@@ -116,7 +117,7 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     const bool changed = material != known.m_material;
     known.m_material = material;
     if (!material.m_given && !(record && record->m_asked.m_materialGiven) && isForBullet(body)) return false;
-    const bool triedAnew = record && !record->m_model.m_rejected;  // by the user
+    const bool triedAnew = record && !record->m_model.m_rejected;  // material set by the user
     if (!known.m_rejection.empty() && !changed && !triedAnew) return false;
     try
     {
@@ -132,7 +133,7 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
     catch (const std::exception& error)
     {
         known.m_rejection = reasonOf(error);
-        return m_fem.isFem(&body);  // then it goes on with what it was
+        return m_fem.isFem(&body);  // a FEM body keeps its former material
     }
 }
 
@@ -164,7 +165,7 @@ void btFemDeformableBodySolver::Impl::sort(btDeformableBodySolver& solver, const
     for (int i = 0; i < m_plain.size() && !m_plainChanged; ++i) m_plainChanged = m_plainBefore[i] != m_plain[i];
 }
 
-// Those that were FEM until a program broke their elements, too.
+// Includes former FEM bodies whose elements were made invalid by the program.
 void btFemDeformableBodySolver::Impl::reportRejections()
 {
     for (int i = 0; i < m_reported.size(); ++i)
@@ -197,7 +198,7 @@ void btFemDeformableBodySolver::Impl::takeBack()
     m_aside.clear();
 }
 
-// Springs of a step take the place of those of the step before; the user's own have positive handles.
+// Replaces the picking springs of the previous step; the user's springs have positive handles.
 void btFemDeformableBodySolver::Impl::drawNodes()
 {
     for (int i = 0; i < m_femBodies.size(); ++i)
@@ -212,8 +213,8 @@ void btFemDeformableBodySolver::Impl::drawNodes()
     }
 }
 
-// The world will add the step to the time for which a body has been slow, as m_fem has just done; and judges by that
-// time alone, where m_fem has reasons to keep a body awake. It knows no twitches, and must not see their speed.
+// The world will add the step to the deactivation time, as m_fem has just done, and decides by that time alone, whereas
+// m_fem may have reasons to keep a body awake. The world has no tolerance for short twitches, so their speed is hidden.
 void btFemDeformableBodySolver::Impl::settleSleep(btScalar step)
 {
     for (int i = 0; i < m_femBodies.size(); ++i)
@@ -230,7 +231,7 @@ void btFemDeformableBodySolver::Impl::settleSleep(btScalar step)
 
 btFemDeformableBodySolver::btFemDeformableBodySolver(const btFemSolverInfo& info) : m_impl(std::make_unique<Impl>(info))
 {
-    setGravity(btVector3(0, -10, 0));  // a world's own, which it does not tell
+    setGravity(btVector3(0, -10, 0));  // Bullet's initial gravity, which the world does not pass on
 }
 
 btFemDeformableBodySolver::~btFemDeformableBodySolver() = default;
@@ -257,11 +258,11 @@ btAlignedObjectArray<btDeformableLagrangianForce*>* btFemDeformableBodySolver::g
     return &m_impl->m_forces.all();
 }
 
-// At the start of a step, and, with dt < 0, when a body was removed.
+// Called at the start of a step, and with dt < 0 after the removal of a body.
 void btFemDeformableBodySolver::reinitialize(const btAlignedObjectArray<btSoftBody*>& softBodies, btScalar dt)
 {
     Impl& impl = *m_impl;
-    if (dt > 0) impl.m_forces.show(softBodies);  // a step that was not finished
+    if (dt > 0) impl.m_forces.show(softBodies);  // after a step that was not finished
     impl.sort(*this, softBodies, dt);
     if (dt > 0) impl.m_fem.optimize(impl.m_reported);
     btFemCoupling::setClothBodies(impl.m_fem, impl.m_plain);

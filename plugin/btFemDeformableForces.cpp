@@ -22,7 +22,7 @@ bool isElastic(Force& force)
     return type == BT_LINEAR_ELASTICITY_FORCE || type == BT_COROTATED_FORCE || type == BT_NEOHOOKEAN_FORCE;
 }
 
-// What acts on the nodes as it is: the others have a meaning of their own, or none.
+// True for forces that act on the nodes as Bullet computes them; the others are handled separately or ignored.
 bool isExternal(Force& force)
 {
     return !isElastic(force) && force.getForceType() != BT_GRAVITY_FORCE && force.getForceType() != BT_MASSSPRING_FORCE;
@@ -32,7 +32,7 @@ struct Elasticity
 {
     LameModuli m_moduli;
     double m_massDamping = 0;
-    double m_damping = 0;  // of stiffness: viscous over elastic moduli
+    double m_damping = 0;  // stiffness damping: viscous over elastic moduli
 };
 
 Elasticity elasticityOf(Force& force)
@@ -69,7 +69,7 @@ void clear(btAlignedObjectArray<btVector3>& values, int size)
 
 bool btFemForceMaterial::operator==(const btFemForceMaterial& b) const
 {
-    const auto same = [](btScalar x, btScalar y) { return x == y || (x != x && y != y); };  // no number, both times
+    const auto same = [](btScalar x, btScalar y) { return x == y || (x != x && y != y); };  // both NaN
     const btFemMaterial &p = m_material, &q = b.m_material;
     return m_given == b.m_given && same(p.m_youngModulus, q.m_youngModulus) &&
            same(p.m_poissonRatio, q.m_poissonRatio) && same(p.m_massDamping, q.m_massDamping) &&
@@ -153,7 +153,8 @@ void btFemDeformableForces::addTo(const Bodies& fem, const Bodies& plain, double
             btSoftBody::Node& node = fem[b]->m_nodes[i];
             node.index = size++;
             m_place.push_back(node.m_q);
-            node.m_q = node.m_x;  // Bullet's functions take places from there; ours of the step before are
+            node.m_q =
+                node.m_x;  // Bullet's functions read positions from m_q, which still has those of the previous step
         }
     for (int k = 0; k < m_all.size(); ++k)
     {
@@ -178,7 +179,7 @@ void btFemDeformableForces::addTo(const Bodies& fem, const Bodies& plain, double
         }
 }
 
-// Impulse, stiffness and damping at all nodes; false if no body of ours has the force.
+// Impulse, stiffness and damping at all nodes; false if the force acts on none of our bodies.
 bool btFemDeformableForces::evaluate(Force& force, int size, double step)
 {
     m_others.copyFromArray(force.m_softBodies);
@@ -204,12 +205,12 @@ bool btFemDeformableForces::evaluate(Force& force, int size, double step)
     return ours;
 }
 
-// The elastic part as springs, which are solved with the body: taken at the step's beginning it would overshoot, and
-// what keeps one node alone from that holds less than it should. Bullet's force does not tell where the mouse is: where
-// its pull ends, unless it is at its limit, which is one of the impulse in a step, and still pulls there.
+// Takes the elastic part of mouse picking as springs, which are solved with the body: an explicit force would
+// overshoot, and the scalar bound of yieldingImpulse() would weaken the hold. The target is the end of the force's
+// pull. If the pull is at Bullet's limit, an impulse per step, the target lies farther away and is searched for.
 void btFemDeformableForces::takeDrawn(int number, const Bodies& fem, double step)
 {
-    constexpr double kRounding = 1e-5;  // of a place in single precision [-]
+    constexpr double kRounding = 1e-5;  // rounding error of a position in single precision [-]
     Force& force = *m_all[number];
     const std::size_t first = m_drawn.size();
     clear(m_change, m_impulse.size());
@@ -241,7 +242,7 @@ void btFemDeformableForces::takeDrawn(int number, const Bodies& fem, double step
     }
 }
 
-// From the spring's target on, if the node were there [m]; no longer than the limit allows.
+// Remaining pull of the force with the node at the spring's target [m], limited as in Bullet.
 Vec3 btFemDeformableForces::wayLeft(Force& force, btSoftBody::Node& node, const NodeSpring& spring, double step)
 {
     node.m_q = bulletVector(spring.m_target);
@@ -250,14 +251,15 @@ Vec3 btFemDeformableForces::wayLeft(Force& force, btSoftBody::Node& node, const 
     return (1 / (step * spring.m_stiffness)) * vec3(m_change[node.index]);
 }
 
-// Along the pull, of which only the direction is known: twice as far each time, and by halves once it is passed.
+// Searches for the mouse along the pull, whose direction alone is known: doubles the distance until the mouse is
+// passed, then bisects.
 void btFemDeformableForces::findMouse(Force& force, btSoftBody::Node& node, NodeSpring& spring, double step)
 {
     constexpr double kFarthest = 1e6;  // [m]
     const Vec3 x = vec3(node.m_x), limit = spring.m_target - x;
     const double length = norm(limit);
     spring.m_maxForce = spring.m_stiffness * length;
-    double before = 1, beyond = 0;  // the mouse is between, in lengths; 0: not known yet
+    double before = 1, beyond = 0;  // bounds of the mouse's distance in units of `length`; 0: not known yet
     for (int k = 0; k < 100 && before * length < kFarthest; ++k)
     {
         const double middle = beyond > 0 ? 0.5 * (before + beyond) : 2 * before;
@@ -272,15 +274,15 @@ void btFemDeformableForces::findMouse(Force& force, btSoftBody::Node& node, Node
     }
 }
 
-// The same in all directions.
+// Isotropic stiffness of the force at a node [N/m].
 double btFemDeformableForces::stiffnessOf(const btSoftBody::Node& node) const
 {
     const btVector3& k = m_stiffness[node.index];
     return std::max(0.0, -(double(k.x()) + double(k.y()) + double(k.z())) / 3);
 }
 
-// Each node as if it were alone, by implicit Euler: m dv = h f(x + h (v + dv), v + dv). What other nodes hold it with
-// makes it but steadier. Damping may act in one direction alone.
+// Implicit Euler for every node alone: m dv = h f(x + h (v + dv), v + dv). Coupling with other nodes only adds
+// stability. Damping may act in one direction only, hence the sum.
 btVector3 btFemDeformableForces::yieldingImpulse(const btSoftBody::Node& node, double step) const
 {
     const auto sum = [](const btVector3& v) { return double(v.x()) + double(v.y()) + double(v.z()); };

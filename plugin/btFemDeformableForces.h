@@ -9,54 +9,54 @@
 #include "bullet_fem/btFemMaterial.h"
 #include "bullet_fem/fem/common/vec3.h"
 
-/// What the elastic forces on a body amount to.
+/// Material of the elastic forces on a body.
 struct btFemForceMaterial
 {
-    bool m_given = false;  ///< there is one
+    bool m_given = false;  ///< such a force exists
     btFemMaterial m_material;
 
     bool operator==(const btFemForceMaterial& b) const;
     bool operator!=(const btFemForceMaterial& b) const { return !(*this == b); }
 };
 
-/// A node that a mouse draws. The spring's handle is negative, and the same in every step.
+/// A node under mouse picking. The spring's handle is negative and constant over steps.
 struct btFemDrawnNode
 {
     const btSoftBody* m_body;
     bullet_fem::NodeSpring m_spring;
 };
 
-/// The forces of a deformable world. Bullet's solver must not see those on FEM bodies: it finds nodes by an index that
-/// FEM bodies' nodes do not have.
+/// The forces of a deformable world. Bullet's solver must not use those on FEM bodies: it finds nodes by an index that
+/// nodes of FEM bodies do not have.
 class btFemDeformableForces
 {
 public:
     using Force = btDeformableLagrangianForce;
     using Bodies = btAlignedObjectArray<btSoftBody*>;
 
-    /// What the user, and the world, add to and remove from.
+    /// The list of forces to which the user and the world add.
     btAlignedObjectArray<Force*>& all() { return m_all; }
 
-    /// The material of the elastic forces on a body: their mu and lambda summed.
+    /// The material of the elastic forces on a body; their mu and lambda are summed.
     btFemForceMaterial materialOf(const btSoftBody& body) const;
 
-    /// Acceleration by gravity [m/s2].
+    /// Gravitational acceleration [m/s2].
     bullet_fem::Vec3 gravityOf(const btSoftBody& body) const;
 
-    /// Takes bodies off all forces, and lists the forces that are left for Bullet's solver: all that act on others
-    /// alone, or body by body.
+    /// Removes bodies from all forces, and lists for Bullet's solver the remaining forces: those on other bodies only,
+    /// or with separate bodies.
     void hide(const Bodies& bodies, btAlignedObjectArray<Force*>& left);
 
-    /// Undoes hide, but for bodies and forces that are gone since: what `world` and all() do not hold.
+    /// Undoes hide(), except for bodies and forces that no longer exist in `world` and all().
     void show(const Bodies& world);
 
-    /// Adds to m_f of FEM bodies what forces other than elasticity, springs and gravity do to them in a step of `step`
-    /// [s], and to the velocities of `plain` bodies what such forces do to them if they are on FEM bodies, too; but for
-    /// how a mouse draws FEM bodies, which drawn() tells. While they are hidden; the plain bodies' nodes must have
-    /// their indices. FEM bodies' nodes have index 0 after that.
+    /// Adds to m_f of FEM bodies the forces other than elasticity, links and gravity in a step of `step` [s], and to
+    /// the velocities of `plain` bodies the effect of forces that act on FEM bodies, too. Mouse picking of FEM bodies
+    /// is excluded: see drawn(). Call between hide and show; the nodes of plain bodies must have their indices. Sets
+    /// the index of FEM bodies' nodes to 0.
     void addTo(const Bodies& fem, const Bodies& plain, double step);
 
-    /// By mouse picking forces, in the step of the last addTo. Their damping is not in it: addTo adds that.
+    /// Nodes under mouse picking in the step of the last addTo, without its damping, which addTo adds to m_f.
     const std::vector<btFemDrawnNode>& drawn() const { return m_drawn; }
 
 private:
@@ -77,6 +77,6 @@ private:
     btAlignedObjectArray<Force*> m_all;
     std::vector<Hidden> m_hidden;
     std::vector<btFemDrawnNode> m_drawn;
-    Vectors m_impulse, m_direction, m_change, m_stiffness, m_damping, m_place;  // scratch, per index of a node
-    Bodies m_others;                                                            // likewise
+    Vectors m_impulse, m_direction, m_change, m_stiffness, m_damping, m_place;  // scratch, per node index
+    Bodies m_others;                                                            // scratch
 };

@@ -43,7 +43,7 @@ void btFemIslands::forEachSoft(const btFemBatch& all, const Visit& visit) const
     for (const btCollisionObject* body : m_leftOut) visit(*btSoftBody::upcast(body));
 }
 
-// Bullet's islands know of contacts and its own constraints, not of what soft bodies are anchored and joined to.
+// Bullet's islands contain contacts and its own constraints, not anchors and joints of soft bodies.
 void btFemIslands::tagIslands(const btFemBatch& all)
 {
     m_tags.clear();
@@ -67,7 +67,7 @@ void btFemIslands::tagIslands(const btFemBatch& all)
                 });
 }
 
-// What is joined may be gone: its address is only compared.
+// The joined object may be deleted: its address is only compared.
 void btFemIslands::tagJoined(const btFemBatch& all, const btCollisionObject* joined)
 {
     btCollisionObject** end = all.m_bodies + all.m_bodyCount;

@@ -10,7 +10,7 @@ class btMultiBodyConstraint;
 class btPersistentManifold;
 class btTypedConstraint;
 
-/// What Bullet's worlds hand to their rigid solver: the islands of a batch, without the seams between them.
+/// A batch of islands that Bullet's worlds pass to their rigid solver, concatenated.
 struct btFemBatch
 {
     btCollisionObject** m_bodies;
@@ -21,26 +21,26 @@ struct btFemBatch
     int m_constraintCount;
     btMultiBodyConstraint** m_multiBodyConstraints = nullptr;
     int m_multiBodyConstraintCount = 0;
-    btCollisionObject** m_softBodies = nullptr;  ///< of the deformable world
+    btCollisionObject** m_softBodies = nullptr;  ///< soft bodies of a deformable world
     int m_softBodyCount = 0;
 };
 
-/// Sorts a batch into the islands with soft bodies, which are solved together with these, and those without, which are
-/// solved as if they were alone. Scratch only.
+/// Divides a batch into islands with soft bodies, which are solved together with these, and islands without, which are
+/// solved separately. Scratch only.
 class btFemIslands
 {
 public:
     /// `fem` must outlive it.
     explicit btFemIslands(btFemSoftBodySolver& fem) : m_fem(fem) {}
 
-    /// Picks the islands with soft bodies, or those without. What joins two objects is in the island of the movable
-    /// one. Worlds of multibodies leave soft bodies out of the batch: FEM bodies of its islands are found all the same.
+    /// Selects the islands with soft bodies, or those without. A joint between two objects belongs to the island of the
+    /// movable one. Multibody worlds omit soft bodies from the batch: FEM bodies of its islands are found nevertheless.
     void select(const btFemBatch& all, bool withFem);
 
-    /// What was picked.
+    /// The selection.
     btFemBatch selected();
 
-    /// Its bodies, with the FEM bodies that the batch left out.
+    /// The bodies of the batch, with the FEM bodies that it omits.
     const std::vector<btCollisionObject*>& withSoftBodies() const { return m_together; }
 
 private:
@@ -52,8 +52,8 @@ private:
     bool isTagged(int tag) const;
 
     btFemSoftBodySolver& m_fem;
-    std::vector<int> m_tags;                    // islands with soft bodies, and those that these are joined to
-    std::vector<btCollisionObject*> m_leftOut;  // FEM bodies of the batch's islands
+    std::vector<int> m_tags;                    // tags of islands with soft bodies, and of islands joined to these
+    std::vector<btCollisionObject*> m_leftOut;  // FEM bodies of the batch's islands that the batch omits
     std::vector<btCollisionObject*> m_bodies, m_softBodies, m_together;
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;

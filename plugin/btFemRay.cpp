@@ -19,8 +19,8 @@ struct Ray
     double m_length2;
 };
 
-// Signed volumes of the ray with the edges: neighbours get the same one with opposite sign for the edge that they
-// share, to the bit, so that no ray slips through between them. [Woop, Benthin, Wald 2013]
+// Signed volumes of the ray with the edges: two triangles with a common edge compute bitwise equal values of opposite
+// sign for it, so that no ray passes between them. [Woop, Benthin, Wald 2013]
 class RayCaster
 {
 public:
@@ -39,7 +39,7 @@ public:
         }
         const bool inside = (volume[0] >= 0 && volume[1] >= 0 && volume[2] >= 0) ||
                             (volume[0] <= 0 && volume[1] <= 0 && volume[2] <= 0);
-        if (!inside || sum == 0) return;  // beside, or in its plane
+        if (!inside || sum == 0) return;  // outside, or in the triangle's plane
         double fraction = 0;
         for (int a = 0; a < 3; ++a) fraction += volume[a] / sum * dot(corner[a], m_ray.m_way) / m_ray.m_length2;
         if (!(fraction >= 0 && fraction <= 1) || (m_hits && fraction >= m_fraction)) return;

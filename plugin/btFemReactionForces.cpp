@@ -17,7 +17,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// Of all held nodes; null if nothing is known.
+// Reactions of all held nodes; null if unknown.
 const std::vector<NodeReaction>* reactionsOf(const btFemSoftBodySolver& solver, const btSoftBody* body)
 {
     const btFemBodyRecord* record = body ? btFemCoupling::record(solver, *body) : nullptr;

@@ -49,8 +49,8 @@ struct btFemSoftBodySolver::Impl
         return *record;
     }
 
-    // Tick callbacks run within a step, and may remove and delete soft bodies; Bullet tells nobody. Those whose arrays
-    // they change stand still until the next step.
+    // Tick callbacks run within a step, and may remove and delete soft bodies, which Bullet does not report. Bodies
+    // whose arrays they change stand still until the next step.
     void dropRemovedBodies(btAlignedObjectArray<btSoftBody*>& stepped)
     {
         if (!m_worldBodies) return;
@@ -78,7 +78,7 @@ struct btFemSoftBodySolver::Impl
 
     ClothContacts& cloth() { return m_step.group().cloth(); }
 
-    // Before contact with cloth is looked for.
+    // Call before the search for contact with cloth.
     void moveCloth(const btAlignedObjectArray<btSoftBody*>& bodies)
     {
         if (m_clothBodies) listCloth(m_registry, *m_clothBodies, cloth());
@@ -86,7 +86,7 @@ struct btFemSoftBodySolver::Impl
             if (movesBySprings(bodies[i])) cloth().solveSprings(*bodies[i]);
     }
 
-    // Of the world being stepped; cloth is among the latter.
+    // Soft bodies of the world being stepped, including cloth.
     const btAlignedObjectArray<btSoftBody*>*m_worldBodies = nullptr, *m_clothBodies = nullptr;
     btFemBodyRegistry m_registry;
     btFemBodySetUp m_setUp;
@@ -363,7 +363,7 @@ void btFemSoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other)
 {
     const btFemBodyRecord* record = m_impl->m_registry.find(body);
     const bool fem = record && record->isFem(), otherFem = isFem(other);
-    if (!fem && !otherFem)  // Bullet's handlers would move a FEM body's nodes behind its back
+    if (!fem && !otherFem)  // Bullet's handlers would move nodes of FEM bodies
     {
         if (hasUsableNodes(*body) && hasUsableNodes(*other)) btDefaultSoftBodySolver::processCollision(body, other);
         return;

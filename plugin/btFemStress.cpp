@@ -11,14 +11,14 @@ using namespace bullet_fem;
 namespace
 {
 
-// Null if the body is not FEM as it is now.
+// Null if the body is not FEM, or its arrays were changed.
 const btFemBodyRecord* femRecordOf(const btFemSoftBodySolver& solver, const btSoftBody* body)
 {
     const btFemBodyRecord* record = body ? btFemCoupling::record(solver, *body) : nullptr;
     return record && record->isFem() && arraysAsSetUp(record->fem()) ? record : nullptr;
 }
 
-// Stresses of the body's elements, or of its nodes; null likewise.
+// Stresses of the body's elements or nodes; null if the body is not FEM, or its arrays were changed.
 const std::vector<Stress>* stressesOf(const btFemSoftBodySolver& solver, const btSoftBody* body, bool perNode)
 {
     const btFemBodyRecord* record = femRecordOf(solver, body);

@@ -93,10 +93,10 @@ void btFemWorldStep::publish()
         if (record->isStepped() && record->m_softBody->isActive())
             m_active.push_back(record.get());
         else
-            record->m_work.m_isFinished = false;  // it may have been stopped since its motion was finished
+            record->m_work.m_isFinished = false;  // the body may have been stopped after its motion was finished
     for (const btFemBodyRecord* record : m_active) makeRoomForBulletContacts(*record);
     m_world.forget();
-    bool onThreads = true;  // if their world infos agree about their world
+    bool onThreads = true;  // true if all world infos refer to one world
     if (!m_active.empty()) m_world.read(*m_active.front()->m_softBody);
     for (const btFemBodyRecord* record : m_active) onThreads = onThreads && m_world.hasRead(*record->m_softBody);
     runTasks(onThreads ? &m_threads : nullptr, static_cast<int>(m_active.size()),
@@ -165,7 +165,7 @@ void btFemWorldStep::finishMotions(double step)
     }
 }
 
-// What callbacks wrote since the body was solved within the rigid solver.
+// Adds the changes that callbacks made to the velocities since the body was solved within the rigid solver.
 void btFemWorldStep::readChanges(btFemBodyRecord& record)
 {
     const std::vector<Vec3>& v = record.fem().m_body.m_state.m_v;

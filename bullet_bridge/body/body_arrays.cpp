@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Maps pointers into one array to the same indices of another.
+/// Maps pointers into one array to equal indices of another.
 class Shift
 {
 public:

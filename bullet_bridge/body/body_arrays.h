@@ -16,7 +16,7 @@ void followNodes(FemSoftBody& fem);
 /// up. The nodes must not be accessed then.
 bool arraysAsSetUp(const FemSoftBody& fem);
 
-/// True if the numbers of nodes and tetrahedra are those of the set-up, and the tetrahedra have the same nodes.
+/// True if the numbers of nodes and tetrahedra are those of the set-up, and the tetrahedra have unchanged nodes.
 bool topologyAsSetUp(const FemSoftBody& fem);
 
 /// topologyAsSetUp() for every step, which checks a part of the tetrahedra each time: see TopologyMarks.

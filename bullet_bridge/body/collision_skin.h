@@ -29,7 +29,7 @@ public:
     /// Counts of the repairs.
     struct Mended
     {
-        int m_welded = 0;      ///< vertices merged with another at the same place
+        int m_welded = 0;      ///< vertices merged with another at an equal position
         int m_degenerate = 0;  ///< removed triangles without area
         int m_duplicates = 0;  ///< removed triangles with the vertices of another
         int m_turned = 0;      ///< reoriented triangles, those of inverted components included

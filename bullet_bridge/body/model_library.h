@@ -69,8 +69,8 @@ public:
     std::shared_ptr<const RestNeighbours> restNeighbours(const std::shared_ptr<const RestShape>& shape,
                                                          const CollisionSkin* skin = nullptr);
 
-    /// The compliance cache that bodies of a model share if their collision surfaces depend on the same nodes. `skin`:
-    /// collision surface; null: the mesh's boundary.
+    /// The compliance cache that bodies of a model share if their collision surfaces depend on equal sets of nodes.
+    /// `skin`: collision surface; null: the mesh's boundary.
     std::shared_ptr<ComplianceCache> compliance(const std::shared_ptr<const BodyModel>& model,
                                                 const CollisionSkin* skin = nullptr);
 

@@ -20,9 +20,9 @@ struct NodeReadReport
 /// A larger value means a less accurate compliance of the body in contact.
 double factorMismatch(const FemSoftBody& fem, double step);
 
-/// Takes over the user's changes of m_x, m_v and m_im since the last writeNodes. x and v are kept in double precision;
-/// only components whose value differs from the written one are read. The new position of a pinned node is its target
-/// within the step. Nodes without elements stay where they are written. Never allocates.
+/// Reads the user's changes of m_x, m_v and m_im since the last writeNodes. x and v are kept in double precision; only
+/// components whose value differs from the written one are read. The new position of a pinned node is its target within
+/// the step. Nodes without elements stay where they are written. Never allocates.
 NodeReadReport readNodes(FemSoftBody& fem);
 
 /// Collects the external loads of the step of `step` [s]: gravity, m_f (in which Bullet's applyForces has put wind and

@@ -18,7 +18,7 @@ inline bool isPushing(const ContactPoint& contact)
 
 /// Thins the contacts of a surface that is much finer than its tetrahedra: a tetrahedron deforms linearly, so a few
 /// points of it represent hundreds, which would only slow down the solver. A cell is half a mean tetrahedron edge wide
-/// in the rest shape. Of the contacts of a cell with one object, it keeps those that pushed in the last step (an active
+/// in the rest shape. A cell's contacts with one object are reduced to those that pushed in the last step (an active
 /// set), and the deepest one at the end of this step if it is deeper than those by the slop or differs in its normal.
 /// Scratch grows, never shrinks.
 class ContactReduction

@@ -9,9 +9,9 @@
 namespace bullet_fem
 {
 
-/// Hands the impulses of contacts that are gone to nearby contacts between the same two surfaces, as their warm start.
-/// Contact points of round surfaces at rest change all the time while the total force does not. Scratch
-/// grows, never shrinks.
+/// Transfers the impulses of contacts that no longer exist to nearby contacts of that pair of surfaces, as warm start.
+/// Contact points of round surfaces at rest change all the time while the total force does not. Scratch grows, never
+/// shrinks.
 class WarmStartTransfer
 {
 public:

@@ -164,8 +164,8 @@ void ClusterJointMaker::appendLinear(const btSoftBody::LJoint& linear, const End
     hold(held, ends[1], joint);
 }
 
-// Finds the axes, and asks the joint's control for a speed about the first axis; NaN if there is none. The control sees
-// the joint in its original form.
+// Finds the axes, and gets a speed from the joint's control about the first axis; NaN if there is none. The control
+// sees the joint in its original form.
 btScalar ClusterJointMaker::askControl(HiddenJoint& hidden, const End* ends, Place* places)
 {
     auto& angular = static_cast<btSoftBody::AJoint&>(*hidden.m_joint);

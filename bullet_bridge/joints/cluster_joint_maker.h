@@ -23,7 +23,7 @@ public:
     {
     }
 
-    /// Appends a joint to the problem. Deletes it if its other side is gone.
+    /// Appends a joint to the problem. Deletes it if its other side no longer exists.
     JointFlags append(HiddenJoint& hidden);
 
 private:

@@ -8,7 +8,7 @@ namespace bullet_fem
 {
 
 /// Appends a joint for each attachment of body `body`: the node follows a point of the other body, and a step corrects
-/// half of the distance between them. Removes attachments to bodies that are gone. Call after solveFreeMotion.
+/// half of the distance between them. Removes attachments to bodies that no longer exist. Call after solveFreeMotion.
 JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& problem);
 
 /// True if one of the nodes is attached to the other body, or carries a point to which a node of the other body is

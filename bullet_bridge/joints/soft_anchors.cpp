@@ -97,7 +97,7 @@ bool AnchorHolder::hold(const AnchorView& anchor)
     const HeldJoint* before = continuedBy(held, m_fem.m_joints.m_before, m_fem.m_joints.m_now.size());
     if (before)
     {
-        // An object that was added since is the same one only if it is about where the former one held the node.
+        // An object that was added since counts as the former one only if it is about where that held the node.
         const double jump = held.m_error - before->m_error;
         if (before->m_objectId != held.m_objectId && jump > m_fem.m_body.m_model->mesh().meanEdgeLength()) return false;
         held.m_impulse = before->m_impulse;

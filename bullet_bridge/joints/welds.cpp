@@ -123,7 +123,7 @@ int WeldClusters::root(int body) const
     return body;
 }
 
-// Index of an attachment's other body; -1 if it is gone.
+// Index of an attachment's other body; -1 if it no longer exists.
 int WeldClusters::indexOf(const NodeAttachment& tie) const
 {
     const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(tie.m_other, 0));

@@ -85,7 +85,7 @@ void RigidProxies::clearPush(Before& before)
     before.m_expected = {};
 }
 
-// Takes back the expected reactions of bodies that felt none in the end, and restores the forces, which all of Bullet's
+// Removes the expected reactions of bodies without actual ones, and restores the forces, which all of Bullet's
 // sub-steps share.
 void RigidProxies::returnExpected()
 {

@@ -101,7 +101,8 @@ int componentOf(const FemSoftBody& fem, const SurfacePoint& point)
 
 }  // namespace
 
-// Collects contact patches by pair of bodies. Of two soft bodies, the one of smaller broadphase id keeps the impact.
+// Collects contact patches by pair of bodies. Between two soft bodies, the one of smaller broadphase id keeps the
+// impact.
 void Rebounds::gather(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies)
 {
     m_patches.clear();
@@ -247,7 +248,7 @@ void Rebounds::give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world
     rigid.clear();
 }
 
-// Finds the other side of an impact. Empty if it is gone or asleep.
+// Finds the other side of an impact. Empty if it no longer exists or sleeps.
 Rebounds::Other Rebounds::otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
                                   WorldObjects& world) const
 {

@@ -66,7 +66,7 @@ void check(const ContactSnapshot& snapshot, const FemSoftBody& fem, const WorldI
 void restore(const ContactSnapshot& snapshot, const WorldIds& world, FemSoftBody& fem);
 
 /// Throws std::invalid_argument unless the contacts are consistent with the bodies of their origins. Drops contacts
-/// with bodies that are gone.
+/// with bodies that no longer exist.
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
 
 /// Throws std::invalid_argument unless all numbers are in (-1e12, 1e12).

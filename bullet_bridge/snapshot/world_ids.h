@@ -13,7 +13,7 @@ namespace bullet_fem
 {
 
 /// The objects of a world and their ids in its broad phase, which identify them in a snapshot: addresses change from
-/// run to run and are reused. Pointers to objects that are gone are compared, never followed.
+/// run to run and are reused. Pointers to objects that no longer exist are compared, never dereferenced.
 class WorldIds
 {
 public:

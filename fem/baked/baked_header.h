@@ -105,7 +105,7 @@ struct BakedArrays
     std::vector<unsigned char> m_sides, m_fixed;
     std::vector<BakedRegion> m_regions;  // m_regions, m_regionOf: empty for a body of one material
     std::vector<std::int32_t> m_regionOf;
-    std::vector<BakedConstants> m_constants;  // one a region; empty if no region is orthotropic
+    std::vector<BakedConstants> m_constants;  // one per region; empty if no region is orthotropic
 };
 
 /// Calls section(array, length) for each array, in the order of the file.

@@ -17,7 +17,7 @@ namespace bullet_fem
 /// full factor, and elements that are neither smoothed nor orthotropic.
 bool canBeBatched(const BodyModel& model);
 
-/// Scratch arrays for solving kBatchWidth bodies of one model side by side: interleaved, one lane a body.
+/// Scratch arrays for solving kBatchWidth bodies of one model side by side: interleaved, one lane per body.
 class BatchArrays
 {
 public:

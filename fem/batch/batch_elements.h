@@ -20,7 +20,7 @@ struct BatchCorners
 struct BatchElements
 {
     const ElementBlocks<float>* m_rest;
-    const BatchCorners* m_corners;  ///< one an element
+    const BatchCorners* m_corners;  ///< one per element
     int m_count;                    ///< elements; with patches, number of lanes of m_rest
     float* m_rotation;              ///< [element][x, y, z, w][body]
     float* m_warped;                ///< [element][kWarpedRows][body], as in WarpedBlock

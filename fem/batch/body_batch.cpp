@@ -56,7 +56,7 @@ void BodyBatch::gatherWarped()
            {9 * nodes()});
 }
 
-// Adds to the guess of dv the rigid motion that gives the bodies their prescribed momentum.
+// Adds to the initial guess of dv the rigid motion that gives the bodies their prescribed momentum.
 void BodyBatch::completeGuess()
 {
     completeIncrements(m_arrays.masses(), m_momenta, m_arrays.m_v.get(), m_arrays.m_increment.get());
@@ -106,7 +106,7 @@ void BodyBatch::startFromZero()
                 m_arrays.m_residual.get());
 }
 
-// Includes bodies with a zero guess.
+// Includes bodies with a zero initial guess.
 GuessMeasure<kBatchWidth> BodyBatch::measureGuess()
 {
     const double* x = m_arrays.m_increment.get();

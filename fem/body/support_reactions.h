@@ -10,15 +10,15 @@
 namespace bullet_fem
 {
 
-/// Notes what a step does to a body with fixed nodes, so that the forces that hold these can be told afterwards. The
-/// rows of the step's equation at the fixed nodes p tell how the forces are shared out,
+/// Notes what a step does to a body with fixed nodes, from which the forces on these are computed afterwards. The rows
+/// of the step's equation at the fixed nodes p give the distribution of the forces,
 ///
 ///     h R_p = m_p (v* - v)_p + ((A - M)(v* - v0 + d (c - e)))_p - b_p - J_p
 ///
 /// with the change c that the step does not resolve, its resolved part c - e (smoothing.h), and v0 the velocities that
-/// b belongs to. Residuals at the free nodes, and what is nonlinear in positions, leave the sums of R_p slightly off
-/// the momentum that the body really has gained: the difference is shared out over the fixed nodes as a rigid motion of
-/// their masses would.
+/// b belongs to. Residuals at the free nodes, and terms nonlinear in positions, make the sums of R_p differ slightly
+/// from the body's true change of momentum: the difference is distributed over the fixed nodes like the momentum of a
+/// rigid motion of their masses.
 class SupportReactions
 {
 public:
@@ -47,7 +47,7 @@ public:
     /// The velocities that those iterations end with, which are v0 then; of any body [m/s].
     void noteSolved(const std::vector<Vec3>& velocity);
 
-    /// Adds impulses to b_p, one a node [N s].
+    /// Adds impulses to b_p, one per node [N s].
     void add(const std::vector<Vec3>& impulses);
 
     /// Impulses of contact and joints on a component of the mesh [N s], about the origin [N m s]. They are in add(),
@@ -92,13 +92,13 @@ private:
     };
     struct Component
     {
-        Vec3 m_origin;                    // of moments: centre of mass of the fixed nodes [m]
-        Vec3 m_linear, m_angular;         // impulses of contact and joints, about the world's origin; then what is
-                                          // missing to the balance, about m_origin [N s], [N m s]
+        Vec3 m_origin;  // reference point of moments: centre of mass of the fixed nodes [m]
+        // impulses of contact and joints, about the world's origin; then the imbalance, about m_origin [N s], [N m s]
+        Vec3 m_linear, m_angular;
         double m_mass = 0, m_spread = 0;  // of all nodes [kg], and times their squared distances to m_origin [kg m2]
         double m_fixedMass = 0;           // of the fixed ones [kg]
-        Mat3 m_inertia;                   // likewise about m_origin [kg m2]
-        Vec3 m_shift, m_turn;             // rigid motion of these that has what is missing [m/s], [rad/s]
+        Mat3 m_inertia;                   // inertia of these about m_origin [kg m2]
+        Vec3 m_shift, m_turn;             // rigid motion of these with the missing momentum [m/s], [rad/s]
     };
     void makeRoom(const BodyModel& model, std::size_t fixed);
     void findImpulses(const std::vector<double>& scaledMass);
@@ -116,7 +116,7 @@ private:
     std::vector<Vec3> m_beginPosition, m_endPosition, m_beginVelocity, m_endVelocity;
     std::vector<Vec3> m_from;
     std::vector<Vec3> m_solvedVelocity;  // v*, where there is damping by mass or to a frame
-    std::vector<Vec3> m_change;          // c; once the step has ended, what A - M is applied to
+    std::vector<Vec3> m_change;          // c; once the step has ended, the vector to which A - M is applied
     std::vector<Vec3> m_product;
     std::vector<Vec3> m_known;  // b_p + J_p, of the fixed nodes
     std::vector<Component> m_components;

@@ -22,9 +22,9 @@ struct BisectedTet
 };
 
 /// Cubes of a lattice, each split into six tets around the diagonal from its corner with even coordinates to the one
-/// with odd coordinates [Tucker 1945], and bisected on demand and wherever a hanging node would arise. Whatever the
-/// demand, tets have three shapes up to scale, and after three bisections they are those of a lattice of half the size:
-/// mean ratios .7559, .7619 and .7999.
+/// with odd coordinates [Tucker 1945], and bisected on demand and wherever a hanging node would arise. Tets always have
+/// three shapes up to scale, and after three bisections they are those of a lattice of half the size: mean ratios
+/// .7559, .7619 and .7999.
 class BisectedTets
 {
 public:
@@ -39,8 +39,8 @@ public:
     /// The first of the six consecutive tets of a cube; -1 if the cube was not added.
     int firstOf(const std::array<int, 3>& place) const;
 
-    /// Bisects the marked leaves, then those with a bisected edge until there are none. `marks` has one entry a tet (0:
-    /// not marked) and is resized to one zero a tet. Returns false, unfinished, if there are more than `most` tets.
+    /// Bisects the marked leaves, then those with a bisected edge until there are none. `marks` has one entry per tet
+    /// (0: not marked) and is resized to one zero a tet. Returns false, unfinished, if there are more than `most` tets.
     bool halve(std::vector<char>& marks, std::size_t most);
 
     const std::vector<BisectedTet>& tets() const { return m_tets; }  ///< all generations

@@ -14,7 +14,7 @@ namespace bullet_fem
 struct Grading
 {
     double m_cellsAcross = 0;  ///< [-], > 0
-    int m_maxGenerations = 0;  ///< maximum bisections of a tet, three a level
+    int m_maxGenerations = 0;  ///< maximum bisections of a tet, three per level
 
     static Grading of(const CageSettings& settings) { return {settings.m_cellsAcross, 3 * settings.m_mostLevels}; }
 };

@@ -31,8 +31,8 @@ struct ThinSearch
 /// Finds the thin parts, in the order of the triangles. The opposite side is the first triangle along the normal
 /// through the middle of a fragment, if its plane is within 60 degrees of the fragment's, so that corners and edges
 /// above 60 degrees are not thin. The segment between must be in the solid and the points beyond both ends outside, or
-/// vice versa for a gap. Of triangles smaller than m_finest one is measured for each block of that size and each of 26
-/// directions, and the others reuse its result. Deterministic.
+/// vice versa for a gap. Among triangles smaller than m_finest, one is measured for each block of that size and each of
+/// 26 directions, and the others reuse its result. Deterministic.
 std::vector<ThinPart> findThinParts(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
                                     const ThinSearch& search);
 

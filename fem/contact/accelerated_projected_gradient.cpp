@@ -37,9 +37,9 @@ void AcceleratedProjectedGradient::restart()
     }
 }
 
-// The gradient step: one over the largest eigenvalue of the compliance, scaled by that of every row, by power
-// iterations from the present impulses. These have the shape of its mode, so few are enough. Probes are added to the
-// impulses, which wait in m_next, and taken back at the end.
+// Step size of the gradient: the inverse of the largest eigenvalue of the compliance, scaled by each row's own, by
+// power iterations from the present impulses. These resemble its eigenvector, so few iterations suffice. Probes are
+// added to the impulses, which are saved in m_next and restored at the end.
 void AcceleratedProjectedGradient::chooseStep()
 {
     constexpr int kIterations = 8;
@@ -77,7 +77,7 @@ void AcceleratedProjectedGradient::chooseStep()
     }
 }
 
-// Of the probes, weighed by the rows' compliance.
+// Sum of squares of the probes, weighted by the rows' compliance.
 double AcceleratedProjectedGradient::sumOfSquares() const
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
@@ -98,7 +98,8 @@ void AcceleratedProjectedGradient::probe(double unit)
 bool AcceleratedProjectedGradient::sweep(double tolerance)
 {
     if (!(m_step > 0)) chooseStep();
-    // Nesterov's extrapolation from the last two points, with restart where it points uphill [O'Donoghue, Candes 2015].
+    // Nesterov's extrapolation from the last two iterates, with restart where it points uphill [O'Donoghue, Candes
+    // 2015].
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * m_acceleration * m_acceleration));
     const double beta = (m_acceleration - 1) / next;
     std::vector<ContactRow>& rows = m_rows.rows();

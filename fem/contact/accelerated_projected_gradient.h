@@ -10,16 +10,15 @@
 namespace bullet_fem
 {
 
-/// Accelerated projected gradient steps on all rows at the same time: where a body has no dense compliance, and is
-/// solved for what all impulses do to it together; behind a step the joints are solved. Grows with the problem, never
-/// shrinks.
+/// Accelerated projected gradient steps on all rows simultaneously, for bodies without a dense compliance, which are
+/// solved for all impulses together; the joints are solved after each step. Grows with the problem, never shrinks.
 class AcceleratedProjectedGradient
 {
 public:
     /// Both must outlive it.
     AcceleratedProjectedGradient(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints) {}
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
     /// Forgets the directions of the last sweeps.
@@ -28,14 +27,14 @@ public:
     /// See ContactSweeps.
     bool sweep(double tolerance);
 
-    /// The largest change by the last one, of a row's own point [m/s].
+    /// Largest velocity change of a row's own point by the last sweep [m/s].
     double lastSpeed() const { return m_lastSpeed; }
 
 private:
-    struct Memory  // of one row
+    struct Memory  // data of one row
     {
         Vec3 m_impulse, m_velocity;  // before the last sweep
-        Vec3 m_next;                 // impulse that it is to have
+        Vec3 m_next;                 // next impulse
     };
 
     void chooseStep();
@@ -45,7 +44,7 @@ private:
     ContactRows& m_rows;
     JointSystem& m_joints;
     std::vector<Memory> m_memory;
-    double m_step = 0;  // of the gradient; 0: not chosen yet
+    double m_step = 0;  // step size; 0: not chosen yet
     double m_acceleration = 1;
     double m_lastSpeed = 0;
 };

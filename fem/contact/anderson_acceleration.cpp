@@ -12,10 +12,10 @@ namespace
 
 constexpr int kMixed = WorkingSet::kMixed;
 
-// Shares of differences that are all but parallel are large and opposite, and follow rounding.
-constexpr double kMaxMixingWeight = 300;  // share that is no longer believed
+// Weights of nearly parallel differences are large and opposite, and dominated by rounding.
+constexpr double kMaxMixingWeight = 300;  // maximum trusted weight
 
-// The first forgets all differences.
+// The first sweep drops all differences.
 void noteDelta(const Vec3& value, int slot, bool first, Vec3& last, Vec3* deltas)
 {
     if (first)
@@ -65,8 +65,8 @@ void AndersonAcceleration::addShares(const std::vector<int>& working)
                               [this](int b) { m_rows.body(b).working().mixSweeps(m_shares); });
 }
 
-// Impulses of points that contradict each other grow by nearly the same amount in every sweep: shares of what little
-// these amounts differ by are large, and a mix of them may lead anywhere.
+// Impulses of points with incompatible constraints grow by nearly equal amounts in every sweep: the weights of their
+// small differences are large, and the mix is unreliable.
 bool AndersonAcceleration::takeBack(const std::vector<int>& working)
 {
     if (m_shares == std::array<double, kMixed>{}) return false;
@@ -79,7 +79,7 @@ bool AndersonAcceleration::takeBack(const std::vector<int>& working)
     return true;
 }
 
-// What a mix has led to a larger change is begun anew.
+// Restarts if a mix led to a larger change.
 void AndersonAcceleration::note(const std::vector<int>& working)
 {
     const double square = squareOfChanges(working);
@@ -115,8 +115,8 @@ void AndersonAcceleration::noteRows(const std::vector<int>& working, bool first)
     }
 }
 
-// Least squares: the last change less shares of its differences from those before, each row by its compliance. Where
-// there is one alone, that.
+// Least squares: minimises the last change minus weighted differences from the changes before, each row weighted by its
+// compliance. Falls back to one difference.
 void AndersonAcceleration::chooseShares(const std::vector<int>& working)
 {
     static_assert(kMixed == 2, "two equations are solved here");

@@ -10,34 +10,34 @@
 namespace bullet_fem
 {
 
-/// Anderson's acceleration of sweeps [Walker & Ni 2011]: a sweep starts from that mix of the results of the last three
-/// whose changes cancel as far as they can. Loads that sweeps would hand on from point to point a hundred times spread
-/// in some ten. The velocities of bodies are mixed like the impulses, and nothing of W is needed. Grows with the rows,
-/// never shrinks.
+/// Anderson acceleration of sweeps [Walker & Ni 2011]: a sweep starts from the linear combination of the last three
+/// results whose changes cancel best. Loads that plain sweeps would spread over points in a hundred sweeps need some
+/// ten. The velocities of bodies are combined like the impulses, without W. Grows with the rows, never shrinks.
 class AndersonAcceleration
 {
 public:
     /// The rows must outlive it.
     explicit AndersonAcceleration(ContactRows& rows) : m_rows(rows) {}
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
-    /// Forgets all sweeps: they are over these rows from now on, and their bodies' working sets.
+    /// Drops all previous sweeps: the next ones are over these rows and their bodies' working sets.
     void start(const std::vector<int>& working);
 
-    /// Before a sweep over them. Impulses may leave their cones; the sweep takes them back.
+    /// Call before a sweep over them: combines previous results. Impulses may leave their cones; the sweep projects
+    /// them.
     void mix(const std::vector<int>& working);
 
-    /// After it.
+    /// Call after the sweep: stores its result.
     void note(const std::vector<int>& working);
 
-    /// Instead, of a sweep that runs away: all is again as it was before the mix, and nothing is mixed until another
-    /// start. False if nothing was mixed.
+    /// Call instead of note() after a diverging sweep: restores the state before the mix, and mixes nothing until
+    /// another start. False if nothing was mixed.
     bool takeBack(const std::vector<int>& working);
 
 private:
-    struct Swept  // of a row, by the last sweep, and its differences from those before
+    struct Swept  // result of a row in the last sweep, and its differences from earlier ones
     {
         Vec3 m_after, m_change;
         Vec3 m_afterDelta[WorkingSet::kMixed], m_changeDelta[WorkingSet::kMixed];
@@ -48,11 +48,11 @@ private:
     void chooseShares(const std::vector<int>& working);
 
     ContactRows& m_rows;
-    std::vector<Vec3> m_before;  // impulses of the rows as the last sweep began
-    std::vector<Swept> m_swept;  // of the same rows
+    std::vector<Vec3> m_before;  // impulses of the rows before the last sweep
+    std::vector<Swept> m_swept;  // per row of m_before
     std::array<double, WorkingSet::kMixed> m_shares{};
-    int m_slot = 0;       // of the newest differences
-    double m_square = 0;  // of the last sweep's changes, roughly [J]; 0: there is none
+    int m_slot = 0;       // slot of the newest differences
+    double m_square = 0;  // approximate squared norm of the last sweep's changes [J]; 0: no sweep yet
     bool m_trusted = true;
 };
 

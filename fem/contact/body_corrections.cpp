@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Corrective solves of a body, and what its compliance learns from them.
+// Corrective solves of a body, and the update of its compliance by their results.
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +14,11 @@ namespace
 {
 
 constexpr double kTooStiff = 1.1;      // W may be too stiff by this factor before it is scaled
-constexpr double kMuchTooStiff = 2.5;  // of joints alone: by so much only where the rigid answer is missing
-constexpr double kTooSoft = 0.7;       // and may promise so much more than comes
-constexpr double kScaleMargin = 1.2;   // for directions that the impulses did not show
-constexpr double kNoise = 1e-4;        // share of all work below which a round's work teaches nothing
-constexpr double kRounding = 1e-9;     // share of the body's speed below which changes of velocity teach nothing
+constexpr double kMuchTooStiff = 2.5;  // threshold for joints alone, beyond which W gets a rigid response
+constexpr double kTooSoft = 0.7;       // true over predicted response below which W counts as too soft
+constexpr double kScaleMargin = 1.2;   // margin for directions without impulses
+constexpr double kNoise = 1e-4;        // share of the total work below which an outer iteration gives no information
+constexpr double kRounding = 1e-9;     // share of the body's speed below which changes of velocity give no information
 
 }  // namespace
 
@@ -35,7 +35,7 @@ ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, 
     return {m_body.m_body, &m_nodeIn, loosened, floor, false, {}};
 }
 
-// Of a residual [N s].
+// Norm of a residual [N s].
 double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
 {
     double all = 0;
@@ -43,8 +43,8 @@ double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
     return goal.m_floor * std::sqrt(all);
 }
 
-// Two surfaces a gap apart feel one impulse at one point: what the lever of the gap makes is added as a spin. So is
-// what the nodes of a group, which is where the step begins, are ahead of it as they feel theirs.
+// Two surfaces separated by a gap share one point of action: the moment by the gap's lever is applied as a spin. An
+// equal correction applies to groups of nodes, whose impulse acts at their positions at the beginning of the step.
 void SoftBodyContacts::addLevers(const StepSettings& settings)
 {
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
@@ -102,9 +102,9 @@ void SoftBodyContacts::giveUpExpected(const StepSettings& settings)
 
 void SoftBodyContacts::endCorrection()
 {
-    double trueWork = 0, predictedWork = 0;  // of the new impulses on the velocities that they made
-    double impulses = 0;                     // the sum of the new ones [N s]
-    m_allWork = 0;                           // of all impulses, roughly
+    double trueWork = 0, predictedWork = 0;  // work of the new impulses on their velocity changes
+    double impulses = 0;                     // sum of the new impulses [N s]
+    m_allWork = 0;                           // approximate work of all impulses
     for (int e = 0; e < size(); ++e)
     {
         const Vec3 impulse = m_impulse[e] - m_applied[e];
@@ -119,8 +119,8 @@ void SoftBodyContacts::endCorrection()
     m_mixed = false;
 }
 
-// Both sides feel an impulse in one place, so that momenta are kept: points where contact has it, groups where the step
-// begins.
+// Both sides share the point of action of an impulse, so that momenta are conserved: for points that of the contact,
+// for groups the position at the beginning of the step.
 void SoftBodyContacts::noteReactions()
 {
     StepScratch& scratch = m_body.m_body->m_workspace.scratch();
@@ -150,8 +150,8 @@ void SoftBodyContacts::noteReactions()
     reactions.add(m_nodeIn);
 }
 
-// Whether the new impulses make velocities that the rounding of the body's own leaves intact. At rest these are small:
-// then what counts is what has just been stopped.
+// True if the velocity changes by the new impulses exceed the rounding of the body's velocities. At rest these are
+// small: then the velocity that was just stopped counts.
 bool SoftBodyContacts::isAboveRounding(const Lesson& lesson) const
 {
     double fastest = m_loadSpeed;
@@ -177,8 +177,8 @@ void SoftBodyContacts::learn(const Lesson& lesson)
     m_working.reset(size());
 }
 
-// A strained body moves as one more easily than P tells: the momentum of impulses is seen to, whatever withstands it.
-// Of joints alone that is all there is to learn: their rounds combine what they have tried, and a factor does no harm.
+// A strained body has a larger rigid response than P predicts: momentum follows from the impulses whatever the strain.
+// For joints alone only this is learnt: GCR combines their outer iterations, so a scale factor of W has no effect.
 void SoftBodyContacts::learnRigid(const Lesson& lesson)
 {
     if (!m_dense || m_rigid >= 1 || !(lesson.m_trueWork > kMuchTooStiff * lesson.m_predictedWork)) return;

@@ -13,11 +13,11 @@ namespace bullet_fem
 namespace
 {
 
-// A tower of a hundred floors takes 20,000 multiplications, fifty bodies in a pit a hundred millions, and sweeps are as
-// good there.
+// Maximum cost of the factor in multiplications. A tower of a hundred floors takes 20,000, fifty bodies in a pit a
+// hundred million, where plain sweeps are as fast.
 constexpr double kMaxWork = 1e6;
 
-// Of the cone, what has the same normal part, or none.
+// Projection to the friction cone at fixed normal part; zero if that is not positive.
 Vec3 nearestInCone(const ContactRow& row, const Vec3& impulse)
 {
     const double normal = dot(impulse, row.m_axes[0]);
@@ -46,8 +46,8 @@ void CoarseCorrection::begin()
     m_unknowns.reserve(kUnknowns * pairs);
     m_responses.reserve(rows);
     m_velocity.reserve(padded(3 * longest, kResponsePadding));
-    // Of pairs w wide the factor takes 36 w^2 multiplications, and has 4 w blocks: at most what follows by the
-    // inequality of Cauchy and Schwarz.
+    // A factor of bandwidth w pairs takes 36 w^2 multiplications per pair, and has 4 w blocks: an upper bound by the
+    // Cauchy-Schwarz inequality.
     const double widths = std::sqrt(static_cast<double>(pairs) * kMaxWork / 36);
     m_factor.reserve(2 * pairs, std::min(2 * pairs * (pairs + 1), static_cast<std::size_t>(4 * widths)));
 }
@@ -65,7 +65,7 @@ void CoarseCorrection::correct(const std::vector<int>& working)
     apply(working);
 }
 
-// Rows of one pair follow each other.
+// Rows of one pair are consecutive.
 void CoarseCorrection::listPairs(const std::vector<int>& working)
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
@@ -111,7 +111,8 @@ void CoarseCorrection::addPair(const std::vector<int>& working, Range range)
         const Vec3 offset = m_rows.pointOf(working[k]) - pair.m_center;
         square += normalOf(k) / load * dot(offset, offset);
     }
-    const double perLength = square > 0 ? 1 / std::sqrt(square) : 0;  // moments are told as forces at that distance
+    const double perLength =
+        square > 0 ? 1 / std::sqrt(square) : 0;  // moments are expressed as forces at that distance
     for (int k = range.m_begin; k < range.m_end; ++k)
     {
         const ContactRow& row = rows[working[k]];
@@ -132,7 +133,7 @@ void CoarseCorrection::addPair(const std::vector<int>& working, Range range)
     m_pairs.push_back(pair);
 }
 
-// Along the longest extent: of a tower the factor is narrow then.
+// Sorted along the longest extent, so that the factor of a tower is narrow.
 void CoarseCorrection::sortPairs()
 {
     Vec3 low = m_pairs[0].m_center, high = low;
@@ -210,7 +211,7 @@ void CoarseCorrection::addYields(const std::vector<int>& working)
                     });
 }
 
-// What the unknowns of its pairs do to each other through one body.
+// Couplings of the unknowns of an owner's pairs through that owner.
 void CoarseCorrection::addOwner(const std::vector<int>& working, Range sides)
 {
     for (int s = sides.m_begin; s < sides.m_end; ++s)
@@ -238,7 +239,7 @@ const ConstraintSide& CoarseCorrection::endOf(int row, const Side& side) const
     return side.m_isB ? m_rows.rows()[row].m_b : m_rows.rows()[row].m_a;
 }
 
-// What an unknown of a pair does to all that a body's working set has, or to a rigid proxy.
+// Velocities of a body's working set, or of a rigid proxy, for a unit value of an unknown.
 void CoarseCorrection::respond(const std::vector<int>& working, const Side& side, int unknown)
 {
     const double sign = side.m_isB ? -1 : 1;
@@ -274,8 +275,8 @@ Vec3 CoarseCorrection::responseAt(int owner, const ConstraintSide& end)
     return m_linear + cross(m_angular, end.m_arm);
 }
 
-// A column of the blocks between two pairs, `pair` not before `other`, and of a diagonal one a row: the velocity that
-// an unknown gives to the points of a pattern.
+// A column of the blocks between two pairs, `pair` not before `other` (for a diagonal block a row): the velocity at the
+// points of a pattern for a unit value of an unknown.
 void CoarseCorrection::addColumn(int pair, int other, int unknown, const Pattern& pattern, const Vec3& v)
 {
     for (int i = 0; i < kUnknowns; ++i)
@@ -289,7 +290,7 @@ void CoarseCorrection::addRow(int pair, int unknown, const Pattern& pattern, con
         m_factor.add(kUnknowns * pair + unknown, kUnknowns * pair + i, dot(pattern.m_of[i], v));
 }
 
-// What the velocities lack of what the rows ask for.
+// Residual: target velocities of the rows minus their velocities.
 void CoarseCorrection::residual(const std::vector<int>& working)
 {
     m_unknowns.assign(kUnknowns * m_pairs.size(), 0);

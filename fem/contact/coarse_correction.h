@@ -10,40 +10,40 @@
 namespace bullet_fem
 {
 
-/// The coarse level of a two-level method [Nicolaides 1987]: the wrenches that pairs of bodies exert on each other,
-/// solved for all pairs at once. What hands on load from floor to floor of a tower takes sweeps the square of its
-/// height, and what they leave, though small at every point, leans it over; here it takes one solve. Of a pair, the
-/// points that carry load take shares of a force and a moment by what each carries; what slides takes the normal part
-/// alone. Grows with the problem, never shrinks.
+/// The coarse level of a two-level method [Nicolaides 1987]: the wrenches between pairs of bodies, solved for all pairs
+/// at once. Passing load from floor to floor of a tower takes a number of sweeps quadratic in its height, and the
+/// remaining error, though small at every point, tilts it; the coarse level takes one solve. The points of a pair that
+/// carry load share its force and moment in proportion to their loads; sliding points take the normal part only. Grows
+/// with the problem, never shrinks.
 class CoarseCorrection
 {
 public:
     /// The rows must outlive it.
     explicit CoarseCorrection(ContactRows& rows) : m_rows(rows) {}
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
-    /// Changes the impulses of these rows, whose ends are all in the working sets of their bodies, within their cones;
-    /// the velocities follow. Nothing where the factor would cost more than it saves: of piles, which are as wide as
-    /// they are high.
+    /// Changes the impulses of these rows, all sides of which are in the working sets of their bodies, within their
+    /// cones; the velocities follow. No effect if the factor would cost more than it saves, as in piles that are as
+    /// wide as high.
     void correct(const std::vector<int>& working);
 
 private:
-    static constexpr int kUnknowns = 6;  // of a pair: force and moment
+    static constexpr int kUnknowns = 6;  // per pair: force and moment
 
-    struct Pattern  // what the unknowns of its pair are on a row
+    struct Pattern  // impulses of a row for unit values of its pair's unknowns
     {
         Vec3 m_of[kUnknowns];
         bool m_carries = false;
     };
     struct Pair
     {
-        Range m_rows = {0, 0};       // of the working ones
+        Range m_rows = {0, 0};       // range of working rows
         int m_owners[2] = {-1, -1};  // movers of the rows
         Vec3 m_center;
     };
-    struct Side  // of a pair, at one of its owners
+    struct Side  // a pair at one of its owners
     {
         int m_owner, m_pair;
         bool m_isB;
@@ -78,14 +78,14 @@ private:
     ContactRows& m_rows;
     std::vector<Pattern> m_patterns;  // per working row
     std::vector<Pair> m_pairs;
-    std::vector<Side> m_sides;  // by their owners
-    std::vector<int> m_first;   // per pair: the first one that shares an owner with it
+    std::vector<Side> m_sides;  // ordered by owner
+    std::vector<int> m_first;   // per pair: the first pair with a common owner
     EnvelopeFactor m_factor;
     std::vector<unsigned char> m_held;
     std::vector<double> m_unknowns;
     std::vector<Response> m_responses;
-    std::vector<double> m_velocity;  // of the working set of one body
-    Vec3 m_linear, m_angular;        // of one rigid proxy
+    std::vector<double> m_velocity;  // velocities of the working set of one body
+    Vec3 m_linear, m_angular;        // velocity of one rigid proxy
 };
 
 }  // namespace bullet_fem

@@ -11,7 +11,8 @@ namespace bullet_fem
 namespace
 {
 
-// Of columns on the low-memory path, see LaneGradients. At 1e-2 stiff bodies (1 GPa) bounced higher than they fell.
+// Tolerance of columns on the low-memory path, see LaneGradients. At 1e-2 stiff bodies (1 GPa) bounced higher than
+// their initial height.
 constexpr double kColumnTolerance = 1e-3;
 
 // Adds a supernode and its ancestors to a marked set.
@@ -54,8 +55,8 @@ void ColumnSolver::markNode(int node)
     if (position >= 0) markToRoot(m_model.factor().lower().tree(), m_supernodeOfPosition[position], m_marked);
 }
 
-// One column a lane. Scaled by the diagonal, so that single precision sees numbers of order one whatever the body
-// weighs.
+// One column per lane, scaled by the diagonal, so that numbers are of order one in single precision whatever the body's
+// mass.
 void ColumnSolver::solve(const Column* columns, int count)
 {
     const RestFactor& factor = m_model.factor();

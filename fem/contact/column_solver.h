@@ -21,13 +21,14 @@ public:
     struct Column
     {
         int m_node, m_axis;
-        float* m_out;  ///< of the blocks (A0^-1)_ij of the nodes i, nine values each, row by row: column m_axis
+        float* m_out;  ///< output: column m_axis of the blocks (A0^-1)_ij of the nodes i, nine values each, row by row
     };
 
     /// Model and nodes must outlive it. The nodes of columns are among these.
     ColumnSolver(const BodyModel& model, const std::vector<int>& nodes);
 
-    /// At most kPanelLanes columns; best of neighbours in the factor, which share most of their way to its root.
+    /// Solves at most kPanelLanes columns; most efficient for neighbours in the factor, which share most of their path
+    /// to its root.
     void solve(const Column* columns, int count);
 
 private:
@@ -36,14 +37,14 @@ private:
 
     const BodyModel& m_model;
     const std::vector<int>& m_nodes;
-    std::vector<int> m_supernodeOfPosition;  // by the factor's order of nodes
-    std::vector<int> m_nodeSupernodes;       // those with these nodes and what is above them
+    std::vector<int> m_supernodeOfPosition;  // indexed by the factor's order of nodes
+    std::vector<int> m_nodeSupernodes;       // supernodes of these nodes and their ancestors
     std::vector<int> m_reach;
     std::vector<unsigned char> m_marked;         // per supernode
     AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved
     std::unique_ptr<LaneGradients> m_gradients;  // on the low-memory path, from the first solve on
-    std::unique_ptr<RigidLanes> m_rigid;         // where A0 has scaled masses: what rigid motions lack by that
-    double m_rigidShare = 0;                     // of them [-]
+    std::unique_ptr<RigidLanes> m_rigid;         // for A0 with scaled masses: correction of rigid motions
+    double m_rigidShare = 0;                     // weight of that correction [-]
 };
 
 }  // namespace bullet_fem

@@ -44,7 +44,7 @@ int ComplianceCache::claimSlot()
     return slot;
 }
 
-// For twice as many columns as are needed now, or all that the budget allows. What is not written takes no memory yet.
+// Reserves twice as many columns as are needed now, or all that the budget allows. Unwritten pages take no memory yet.
 void ComplianceCache::makeRoom(std::size_t columns)
 {
     const std::size_t all = m_nodes.size(), columnSize = 9 * all;
@@ -75,7 +75,7 @@ void ComplianceCache::request(const std::vector<int>& nodes, const Threads* thre
     if (!m_newNodes.empty()) solveNewColumns(threads);
 }
 
-// Neighbours in the factor together.
+// Sorted so that neighbours in the factor are solved together.
 void ComplianceCache::solveNewColumns(const Threads* threads)
 {
     const RestFactor& factor = m_model->factor();

@@ -24,14 +24,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, kColumnOfRotation>;
 using Vector = hn::Vec<Lanes>;
 
-#if HWY_TARGET == HWY_SCALAR  // which has no vectors of four
+#if HWY_TARGET == HWY_SCALAR  // has no vectors of four
 void TurnColumn(const RestColumn& in, float* columns)
 {
     scalar::turnColumn(in, columns);
 }
 #else
-// Columns of three values are read and written as four: what comes after a column of the result is written next, or,
-// at its end, left alone.
+// Columns of three values are read and written as four: the value after a column of the result is overwritten next, or,
+// at the end, preserved.
 void TurnColumn(const RestColumn& in, float* columns)
 {
     const Lanes d;

@@ -7,18 +7,18 @@
 namespace bullet_fem
 {
 
-/// Values of a column of a rotation: three, and one that is not used.
+/// Values per column of a rotation: three and one of padding.
 constexpr std::size_t kColumnOfRotation = 4;
 
-/// What an impulse on one node does to a list of nodes, before the nodes have turned.
+/// Response of a list of nodes to an impulse on one node, before rotation.
 struct RestColumn
 {
     const float* m_blocks = nullptr;     ///< (A0^-1)_ij for all surface nodes i, nine values each, row by row
-    const int* m_offsets = nullptr;      ///< of every node of the list in m_blocks
+    const int* m_offsets = nullptr;      ///< offset of every node of the list in m_blocks
     const float* m_rotations = nullptr;  ///< R_i of every node of the list: three columns of kColumnOfRotation values
-    std::size_t m_first = 0;             ///< nodes of the list from this
-    std::size_t m_end = 0;               ///< up to, not including, this one
-    std::size_t m_stride = 0;            ///< of the columns, >= 3 m_end
+    std::size_t m_first = 0;             ///< first node of the range
+    std::size_t m_end = 0;               ///< end of the range
+    std::size_t m_stride = 0;            ///< stride of the columns, >= 3 m_end
     float m_source[9] = {};              ///< s R_j of the node with the impulse, row by row
 };
 
@@ -29,16 +29,16 @@ void turnColumn(const RestColumn& column, float* columns);
 /// A weighted sum of some arrays.
 struct WeightedArrays
 {
-    const float* const* m_arrays = nullptr;  ///< m_count of them
-    const float* m_weights = nullptr;        ///< one each
+    const float* const* m_arrays = nullptr;  ///< m_count arrays
+    const float* m_weights = nullptr;        ///< weight of each array
     int m_count = 0;
 };
 
-/// sum_i = sum_k w_k a_ki for i in [0, size), in the order of k; zero where there are none. On the widest vectors that
-/// the processor has.
+/// sum_i = sum_k w_k a_ki for i in [0, size), in the order of k; zero for no arrays. On the widest vectors of the
+/// processor.
 void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum);
 
-/// The same in plain C++: what the kernels are tested against.
+/// References in plain C++, against which the kernels are tested.
 namespace scalar
 {
 void turnColumn(const RestColumn& column, float* columns);

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-// The normal, a unit vector at a right angle to it, and their cross product.
+// The normal, a perpendicular unit vector, and their cross product.
 void ContactRows::setAxes(const Vec3& n, ContactRow& row)
 {
     const Vec3 tangent = cross(std::fabs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, n);
@@ -47,7 +47,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
     for (ContactRow& row : m_rows)
-        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a guess that nothing would ever change
+        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a warm start that no sweep would ever change
     pressOnTorsions();
     pushStarts(true);
     runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),
@@ -65,7 +65,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     pushStarts(false);
 }
 
-// The impulses that rows start with, on the ends that are expected to have them, or the others.
+// Applies the initial impulses to the sides that expect them, or to the others.
 void ContactRows::pushStarts(bool expected)
 {
     const auto push = [&](const ConstraintSide& end, const Vec3& impulse)
@@ -81,7 +81,7 @@ void ContactRows::pushStarts(bool expected)
     }
 }
 
-// The ends are numbered in the order of the contacts; all else of a row needs nothing of the others.
+// Sides are numbered in the order of the contacts; the rest of a row is independent of other rows.
 void ContactRows::addContactRows()
 {
     const std::vector<ContactPoint>& contacts = m_problem->m_contacts;
@@ -107,7 +107,7 @@ void ContactRows::addContactRows()
         });
 }
 
-// Of joints, ends that move as nodes by weights, if the body has the columns of these. It solves for the others.
+// True for joint sides that move as a weighted mean of nodes whose columns the body has, for which it solves.
 bool ContactRows::isPoint(const JointEnd& end) const
 {
     if (end.m_body < 0 || end.m_count > SurfacePoint::kMaxNodes) return false;
@@ -144,11 +144,11 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
     row.m_impulse = contact.m_impulse;
 }
 
-// Where both sides feel the impulse, for all angular momentum to be kept. Of implicit Euler it stands for the forces at
-// the end of the step, and the patch has come from where m_patch says; else for those at a share theta of it, where the
-// nodes are then, or, of what touches only as the step ends, for those at its end.
-// Soft bodies measure levers from their positions y at 1 - theta, rigid ones from where they begin: the point is nearer
-// to where the lighter one wants it.
+// Point of action of the impulse on both sides, such that total angular momentum is conserved. With implicit Euler the
+// impulse represents the forces at the end of the step, and the patch's origin is given by m_patch; otherwise the
+// forces at a share theta of the step, at the nodes' positions then, or, for contacts that begin at the end of the
+// step, those at its end. Soft bodies measure lever arms from their positions y at 1 - theta, rigid ones from their
+// initial positions: the point is nearer to the choice of the lighter side.
 Vec3 ContactRows::impulsePoint(const ContactPoint& contact) const
 {
     const double theta = this->theta(contact.m_soft.m_body, contact.m_rigidProxy < 0 ? contact.m_other.m_body : -1);
@@ -259,7 +259,7 @@ void ContactRows::finishRow(ContactRow& row) const
         row.m_idle = !(trace(row.m_compliance) > 0);
     else
     {
-        // A compliance that is the same for all tangents makes friction opposite to the velocity where it slides.
+        // A compliance that is isotropic in the tangent plane makes friction opposite to the sliding velocity.
         const double a = row.m_rowCompliance.y, b = row.m_rowCompliance.z, c = dot(row.m_axes[1], w[2]);
         row.m_rowCompliance.y = row.m_rowCompliance.z = 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + c * c);
         if (!(row.m_rowCompliance.y > 0)) row.m_rowCompliance.y = row.m_rowCompliance.z = row.m_rowCompliance.x;

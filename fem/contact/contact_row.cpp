@@ -53,13 +53,13 @@ Vec3 impulseOfJoint(const ContactRow& row, const Vec3& impulse, Vec3 v, double s
     return result;
 }
 
-// About the normal within spinning friction, about the tangents within the ellipse of rolling friction; m_limit has the
-// coefficients.
+// Clamps the couple about the normal to spinning friction, and about the tangents to the ellipse of rolling friction;
+// m_limit holds the coefficients.
 Vec3 impulseOfTorsion(const ContactRow& row, const Vec3& impulse, Vec3 v, double step)
 {
     const double load = std::max(row.m_load, 0.0);
     Vec3 wanted;
-    double beyond = 0;  // square of the share of rolling friction
+    double beyond = 0;  // squared utilisation of rolling friction
     for (int i = 0; i < 3; ++i)
     {
         const double w = row.m_rowCompliance[i], old = dot(impulse, row.m_axes[i]), most = row.m_limit[i] * load;
@@ -77,7 +77,7 @@ Vec3 impulseOfTorsion(const ContactRow& row, const Vec3& impulse, Vec3 v, double
 
 bool sticks(const ContactRow& row)
 {
-    constexpr double kSticks = 0.999;  // share of the friction that it could have
+    constexpr double kSticks = 0.999;  // share of the maximum friction
     const double normal = dot(row.m_impulse, row.m_axes[0]);
     return norm(row.m_impulse - normal * row.m_axes[0]) < kSticks * row.m_friction * normal;
 }

@@ -12,9 +12,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kManyBodies = 16;  // of dense compliance, worth waking threads for
+constexpr std::size_t kManyBodies = 16;  // minimum number of bodies with dense compliance for which threads pay
 
-// Impacts change velocities by the speed scale, and now and then by some tens of it.
+// Impacts change velocities by the speed scale, occasionally by some tens of it.
 constexpr double kRunaway = 1e3;
 
 }  // namespace
@@ -33,7 +33,7 @@ void ContactRows::react(const ConstraintSide& end, const Vec3& impulse)
     if (end.m_rigidProxy < 0) return;
     std::vector<RigidProxy>& rigidProxies = m_problem->m_rigidProxies;
     const RigidProxy& rigidProxy = rigidProxies[end.m_rigidProxy];
-    if (rigidProxy.m_responseCount == 0 && !rigidProxy.canMove()) return;  // others read its velocity meanwhile
+    if (rigidProxy.m_responseCount == 0 && !rigidProxy.canMove()) return;  // other threads read its velocity
     const auto add = [&rigidProxies](int k, const Vec3& linear, const Vec3& angular)
     {
         rigidProxies[k].m_linearVelocity += linear;
@@ -89,7 +89,7 @@ Vec3 ContactRows::pointOf(std::size_t row) const
     return m_problem->m_rigidProxies[end.m_rigidProxy].m_center + end.m_arm;
 }
 
-// A dense compliance is over before other threads have woken up.
+// A dense compliance is finished before other threads wake up.
 const Threads* ContactRows::threadsForCompliance() const
 {
     return m_dense && m_problem->m_bodies.size() < kManyBodies ? nullptr : m_settings.m_step.m_threads;
@@ -181,7 +181,7 @@ double ContactRows::error()
                                { return isSolvedAtOnce(m_rows[k]) || rests(m_rows[k]) ? 0 : wantedSpeed(m_rows[k]); }));
 }
 
-// What rests closes no faster than allowed: its velocity has just been measured.
+// A resting contact closes no faster than allowed: its velocity has just been measured.
 RowSurvey ContactRows::survey()
 {
     std::array<RowSurvey, Chunks::kMax> found{};
@@ -235,7 +235,7 @@ bool ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& 
     return learnt;
 }
 
-// Bodies that share their model several at a time, batches on threads.
+// Solves bodies with a common model in batches, on several threads.
 void ContactRows::solveCorrections()
 {
     const Threads* threads = m_settings.m_step.m_threads;
@@ -264,18 +264,19 @@ Vec3 ContactRows::trueVelocity(const ContactRow& row) const
     return ofEnd(row.m_a) - ofEnd(row.m_b);
 }
 
-// By how much the way within the step of a point of a kinematic rigid proxy, an arc, differs from h times its velocity:
-// h^2/2 w x (w x arm) [m]. What sticks is led along it; without that a body on a turntable would go outwards. Of what
-// turns far within the step other points touch as it ends, and the spin of what can move is not known before the solve.
 double ContactRows::theta(int a, int b) const
 {
     const double ofA = a >= 0 ? m_bodies[a].theta() : 0, ofB = b >= 0 ? m_bodies[b].theta() : 0;
     return a >= 0 || b >= 0 ? std::max(ofA, ofB) : 1;
 }
 
+// Difference between the arc of a point of a kinematic rigid proxy within the step and h times its velocity: h^2/2 w x
+// (w x arm) [m]. Sticking points follow the arc; without it a body on a turntable would drift outward. Not used for
+// fast rotation, where contact points change within the step, nor for movable proxies, whose spin is unknown before the
+// solve.
 Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
-    constexpr double kFarTurn = 0.5;  // within a step [rad]
+    constexpr double kFarTurn = 0.5;  // maximum rotation within a step [rad]
     const ConstraintSide& end = row.m_b;
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
@@ -289,7 +290,7 @@ Vec3 ContactRows::arcOfMean(const ContactRow& row) const
     return (2 * theta(row) - 1) * arcOf(row);
 }
 
-// A point that sticks remembers how far it crept; one that slides or hangs free starts anew.
+// A sticking point accumulates its slip; a sliding or unloaded one starts from zero.
 Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) const
 {
     if (!sticks(row)) return {};

@@ -15,146 +15,150 @@
 namespace bullet_fem
 {
 
-/// What a look at all rows finds [m/s].
+/// Result of a survey of all rows [m/s].
 struct RowSurvey
 {
-    double m_wanted = 0;   ///< by how much a contact alone wants to change the velocity of its point, at most
-    double m_guessed = 0;  ///< and one without a rigid proxy that can move
-    double m_joints = 0;   ///< and a joint within its limits
-    double m_closing = 0;  ///< how much faster than allowed a contact closes, at most
+    double m_wanted = 0;   ///< maximum velocity change of a contact's point by its local solution
+    double m_guessed = 0;  ///< that maximum over contacts without a movable rigid proxy
+    double m_joints = 0;   ///< that maximum over joints within their limits
+    double m_closing = 0;  ///< maximum excess of a contact's approach speed over the allowed one
 };
 
-/// The rows of all contacts and joints of a problem, and what their impulses do to bodies and rigid proxies. Who sweeps
-/// over them is ContactSweeps. Grows with the problem, never shrinks.
+/// The rows of all contacts and joints of a problem, and the response of bodies and rigid proxies to their impulses.
+/// ContactSweeps sweeps over them. Grows with the problem, never shrinks.
 class ContactRows
 {
 public:
-    /// Ends, frames and compliance of all rows, from free velocities of bodies and present ones of rigid proxies.
-    /// `goal`: how closely bodies are to have solved for the impulses that rows start with. The problem must live until
+    /// Computes sides, frames and compliance of all rows, from free velocities of bodies and present ones of rigid
+    /// proxies. `goal`: required accuracy of the bodies' solves for the initial impulses. The problem must live until
     /// the step is over.
     void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
 
-    /// Of the contacts, the joints, the touches of rigid proxies and the torsional frictions, in this order.
+    /// The rows of the contacts, the joints, the contacts between rigid proxies and the torsional frictions, in this
+    /// order.
     std::vector<ContactRow>& rows() { return m_rows; }
     const std::vector<ContactRow>& rows() const { return m_rows; }
     SoftBodyContacts& body(int b) { return m_bodies[b]; }
 
-    /// True if all bodies have a dense compliance: a change of one row is felt by the others at once.
+    /// True if all bodies have a dense compliance: a change of one row changes the velocities of the others
+    /// immediately.
     bool isDense() const { return m_dense; }
 
-    /// Gives the rigid proxies the reactions of the impulses that the rows start with.
+    /// Applies the initial impulses of the rows to the rigid proxies.
     void warmStart();
 
-    /// Takes all impulses back.
+    /// Removes all impulses.
     void takeBack();
 
-    /// Notes all impulses; restoreBest() gives those noted last to the rows again, and the velocities follow.
+    /// Saves all impulses; restoreBest() restores those saved last, and the velocities follow.
     void keep();
     void restoreBest();
 
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
 
-    /// Lets the touches of rigid proxies answer what the impulses so far do to them. Returns whether there are any.
+    /// Solves the contacts between rigid proxies for the impulses so far. Returns whether there are any.
     bool settleRigidContacts();
 
-    /// What an impulse on one end of a row does to the velocity of another's [1/kg]; angular ends of rigid proxies have
-    /// spins and angular impulses.
+    /// Velocity response of one side to an impulse on another [1/kg]; angular sides of rigid proxies have spins and
+    /// angular impulses.
     Mat3 compliance(const ConstraintSide& of, const ConstraintSide& from) const;
 
-    /// What impulses on an end move, by number: bodies, then rigid proxies. -1: nothing.
+    /// Index of the object that impulses on a side move: bodies, then rigid proxies; -1: none.
     int mover(const ConstraintSide& end) const;
     std::size_t movers() const { return m_problem->m_bodies.size() + m_problem->m_rigidProxies.size(); }
 
-    /// True if a rigid proxy that can move is at one of its ends.
+    /// True if one of its sides is a movable rigid proxy.
     bool movesRigid(const ContactRow& row) const;
 
-    /// Where a row other than a joint acts [m].
+    /// Position of a row other than a joint [m].
     Vec3 pointOf(std::size_t row) const;
 
-    /// Relative velocity of a row's ends, as predicted [m/s].
+    /// Predicted relative velocity of a row's sides [m/s].
     Vec3 velocity(const ContactRow& row) const { return velocity(row.m_a) - velocity(row.m_b); }
 
-    /// With which its ends move against each other in the step [m/s].
+    /// Mean relative velocity of a row's sides over the step [m/s].
     Vec3 meanVelocity(const ContactRow& row) const { return meanVelocity(row.m_a) - meanVelocity(row.m_b); }
 
-    /// Of what turns with a rigid proxy that nothing moves, less h times its velocity at 1 - theta of the step: what it
-    /// goes in theta of it, over theta, and in the whole step [m].
+    /// Correction for the arc of a point on a kinematic rigid proxy, beyond h times its velocity at 1 - theta of the
+    /// step: over a share theta of the step, divided by theta, and over the whole step [m].
     Vec3 arcOf(const ContactRow& row) const;
     Vec3 arcOfMean(const ContactRow& row) const;
 
-    /// StepCoefficients::theta() of a row's soft body, of two the larger: shares of the step are those of implicit
-    /// Euler where one of them goes by it. 1 without soft bodies.
+    /// StepCoefficients::theta() of a row's soft body, of two bodies the maximum, which is 1 if one uses implicit
+    /// Euler. 1 without soft bodies.
     double theta(const ContactRow& row) const { return theta(row.m_a.m_body, row.m_b.m_body); }
     double theta(int a, int b) const;
 
-    /// Gives a row another impulse; the velocities of its ends follow: of a body that is not dense with flush().
+    /// Changes a row's impulse; the velocities of its sides follow, for a body that is not dense at flush().
     void change(ContactRow& row, const Vec3& impulse);
     void flush();
 
-    /// Adds to a row's impulse; the velocities of rigid proxies follow, those of bodies are left to whoever mixes them.
+    /// Adds to a row's impulse; the velocities of rigid proxies follow, those of bodies are combined by the caller.
     void pushAlong(ContactRow& row, const Vec3& impulse);
 
-    /// Brings the ends' velocities up to the bodies' true ones.
+    /// Updates the sides' velocities from the bodies' true ones.
     void measure();
 
-    /// What changes are measured against from here on: the speed that the loads give a body in a step, or what a row
-    /// has to change now at most, `wanted` [m/s]; where there are no loads, or what a guess has changed.
+    /// Sets the scale of errors: the speed that the loads give a body in a step, or the largest change that a row
+    /// requires now, `wanted` [m/s]; without loads, also the change by the warm start.
     void setSpeedScale(double wanted);
     double speedScale() const { return m_speedScale; }
 
-    /// The shortest mean edge of an element of the bodies that have ends [m].
+    /// Minimum of the mean element edges of the bodies with sides [m].
     double shortestEdge() const { return m_shortestEdge; }
 
-    /// The largest speed that its loads alone would give one of the bodies in a step [m/s].
+    /// Maximum speed that the loads alone would give a body in a step [m/s].
     double loadSpeed() const { return m_loadSpeed; }
 
-    /// A speed as a share of that scale; 1000 if there is none.
+    /// A speed divided by that scale; 1000 if the scale is 0.
     double share(double speed) const;
 
-    /// True of a speed so much above the scale that sweeping leads nowhere. The compliance of a body may be indefinite
-    /// by its own errors: that of a stiff, light body on the low-memory path.
+    /// True for a speed so far above the scale that sweeps diverge. The compliance of a body may be indefinite by its
+    /// own errors, as for a stiff, light body on the low-memory path.
     bool isRunaway(double speed) const;
 
-    /// Looks at all rows when they have just been measured, and notes which of them want something.
+    /// Surveys all rows after measure(), and marks those that require a change.
     RowSurvey survey();
 
-    /// Only notes it.
+    /// Only marks them.
     void noteWants();
 
-    /// When it was noted last: the row was more than a contact that carries nothing and wants nothing, as most are.
+    /// True if, at the last marking, the row carried an impulse or required one, or was not a contact; most rows do
+    /// not.
     bool wants(std::size_t k) const { return m_wants[k] != 0; }
 
-    /// By how much a row that is more than that alone wants to change the velocity of its point [m/s].
+    /// Velocity change of its point that such a row requires [m/s].
     double wantedSpeed(const ContactRow& row) const;
 
-    /// The largest of these, but for joints within their limits, as a share of the scale.
+    /// Maximum of these, without joints within their limits, relative to the scale.
     double error();
 
-    /// Solves the bodies' true systems for what is new. `steady`: the impulses are all of a step much like the one
-    /// before. Returns whether the rows' compliance has changed.
+    /// Solves the bodies' true systems for the new impulses. `steady`: all impulses are those of a step similar to the
+    /// previous one. Returns whether the rows' compliance has changed.
     bool apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
 
-    /// True if a body has answered less than its compliance said: rounds go a part of the way only.
+    /// True if a body has responded less than its compliance predicted: each outer iteration then removes only part of
+    /// the error.
     bool isTooSoft() const;
 
-    /// The largest speed [m/s] at which a contact closes faster than allowed, from the bodies' true velocities.
+    /// Maximum excess of a contact's true approach speed over the allowed one [m/s].
     double worstViolation();
 
     /// See SoftBodyContacts.
     void noteReactions();
 
-    /// Hands the impulses to the contacts and joints, and the slip of what sticks. Returns the worst violation.
+    /// Writes the impulses to the contacts and joints, and the slip of sticking points. Returns the maximum violation.
     double store();
 
-    /// Those that are worth waking for what W takes; null: none but the caller's.
+    /// Threads for the computation of W; null: the caller's alone suffices.
     const Threads* threadsForCompliance() const;
 
-    /// Calls part(b) for all bodies with ends, on these threads at the same time: it must write to nothing but body b
-    /// and its ends.
+    /// Calls part(b) for all bodies with sides, concurrently on these threads: it must write only to body b and its
+    /// sides.
     template <class Part>
     void forEachContactBody(const Threads* threads, const Part& part)
     {
@@ -165,8 +169,8 @@ public:
                  });
     }
 
-    /// Calls part(p, rows) for ranges that make up all rows, where they are many on the settings' threads at the same
-    /// time: it must write to nothing but these rows.
+    /// Calls part(p, rows) for ranges that cover all rows, concurrently on the settings' threads if there are many: it
+    /// must write only to these rows.
     template <class Part>
     void forEachChunk(const Part& part)
     {
@@ -176,7 +180,7 @@ public:
     }
 
 private:
-    static constexpr int kRowsPerChunk = 512;  // shorter pieces would not be worth handing out
+    static constexpr int kRowsPerChunk = 512;  // shorter chunks would not pay
 
     static void setAxes(const Vec3& normal, ContactRow& row);
     void addContactRows();
@@ -213,7 +217,7 @@ private:
     void react(const ConstraintSide& end, const Vec3& impulse);
     void solveCorrections();
 
-    /// The largest value(k) of all rows, or 0 if none is more.
+    /// Maximum of value(k) over all rows, at least 0.
     template <class Value>
     double largestOfRows(const Value& value)
     {
@@ -233,16 +237,16 @@ private:
     std::vector<SoftBodyContacts> m_bodies;
     std::vector<ImpulseResponse> m_corrections;  // of the last corrective solves
     std::vector<ImpulseResponse> m_ordered;      // in the order of the batches
-    std::vector<int> m_corrected;                // bodies, one a correction
-    std::vector<const Body*> m_correctedBodies;  // likewise
-    BodyBatches m_batches;                       // of these
+    std::vector<int> m_corrected;                // indices of bodies, one per correction
+    std::vector<const Body*> m_correctedBodies;  // bodies, one per correction
+    BodyBatches m_batches;                       // batches of m_correctedBodies
     std::vector<ContactRow> m_rows;
-    std::vector<int> m_jointPoints;      // per joint the ends a and b: their points on their bodies, or -1
+    std::vector<int> m_jointPoints;      // per joint, for sides a and b: their points on their bodies, or -1
     std::vector<unsigned char> m_wants;  // per row
     bool m_dense = true;
     double m_shortestEdge = 0;  // [m]
     double m_loadSpeed = 0;     // [m/s]
-    double m_speedScale = 0;    // that errors are measured against [m/s]
+    double m_speedScale = 0;    // scale of errors [m/s]
 };
 
 }  // namespace bullet_fem

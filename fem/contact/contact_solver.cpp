@@ -39,16 +39,17 @@ void ContactProblem::clear()
 namespace
 {
 
-// Where points contradict each other, as some that slide do, an impulse grows by the same amount in every sweep and no
-// velocity changes. A round ends if the best sweep of a window is hardly better than that of the one before.
+// If constraints are incompatible, as for some sliding points, an impulse grows by a constant amount in every sweep
+// while no velocity changes. An outer iteration ends if the best sweep of a window is hardly better than that of the
+// previous one.
 constexpr int kWindow = 10;
 constexpr double kStallRatio = 0.8;
 
-// The sweeps of a round.
+// Progress of the sweeps of an outer iteration.
 struct SweepProgress
 {
     int m_sweeps = 0;
-    double m_best = 0, m_bestBefore = 0;  // changes, of this window and the last
+    double m_best = 0, m_bestBefore = 0;  // smallest changes, of this window and the last
 
     bool stalls(double change)
     {
@@ -71,19 +72,19 @@ struct ContactSolver::Scratch
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
-    RowSurvey m_found;        // after the last round
-    double m_error = 1;       // likewise
-    double m_left = 0;        // speedLeft() likewise
-    double m_best = 0;        // the smallest of these so far
-    bool m_isBest = false;    // it is the last
-    bool m_isCalm = false;    // the guess was good
-    double m_goal = 0;        // error at which rounds end
+    RowSurvey m_found;        // after the last outer iteration
+    double m_error = 1;       // errorNow() after the last outer iteration
+    double m_left = 0;        // speedLeft() after the last outer iteration
+    double m_best = 0;        // minimum of m_left so far
+    bool m_isBest = false;    // the last outer iteration is the best
+    bool m_isCalm = false;    // the warm start was accurate
+    double m_goal = 0;        // error at which outer iterations end
     bool m_loose = false;     // the last corrective solves were loose
-    double m_floor = 0;       // of a body's impulses that residuals are measured against
-    bool m_guessing = false;  // the impulses are those of the last step
+    double m_floor = 0;       // share of a body's impulses that residuals are measured against
+    bool m_guessing = false;  // the impulses are the warm start
     SweepProgress m_progress;
     bool m_stalled = false;
-    bool m_othersMoved = false;  // in the sweeps of this round
+    bool m_othersMoved = false;  // rows of others changed velocities in this outer iteration
     bool m_begins = false;       // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
 };
@@ -91,68 +92,70 @@ struct ContactSolver::Scratch
 namespace
 {
 
-// Rounds go on until no joint lacks more than this share of the impulses on its bodies, nor its ends more than this
-// share of the speed scale: a heavy body on a light one needs both. Less than the other share of the scale is no
-// impulse.
+// Outer iterations continue until every joint's missing impulse is below this share of the impulses on its bodies, and
+// the velocity error of its sides below this share of the speed scale: a heavy body on a light one needs both. Speeds
+// below the other share of the scale count as zero.
 constexpr double kJointTolerance = 1e-3;
 constexpr double kNoJointSpeed = 1e-6;
-constexpr int kMoreRounds = 2;            // times as many as usual at most: strained bodies need them
-constexpr double kUnsolvedJoints = 0.05;  // what is left by then that is told
+constexpr int kMoreRounds = 2;            // factor on the maximum number, for strained bodies
+constexpr double kUnsolvedJoints = 0.05;  // remaining share that is reported as not converged
 
-// The residuals of a body's corrective solves count as what they leave of its impulses: a share of the tolerance. Where
-// more rounds than usual do not meet that, every further one is solved more closely, down to what joints begin with.
+// Residuals of a body's corrective solves are limited to a share of the tolerance. If more outer iterations than usual
+// do not suffice, each further one is solved more accurately, down to the accuracy used for joints.
 constexpr double kResidualShare = 0.3;
 constexpr int kUsualRounds = 3;
 constexpr double kCloser = 0.3;
 constexpr double kFinestFloor = 1e-3;
 
-// Of a fast impact the tolerance is a share of a high speed: what it leaves must not take thin and tiny bodies far into
-// each other within the step.
-constexpr double kErrorOfEdge = 5e-4;      // of an element's [-]
-constexpr double kFinestTolerance = 1e-7;  // that is still above rounding [-]
+// The tolerance of a fast impact is a share of a high speed: the remaining error must not let thin and tiny bodies
+// penetrate deeply within the step.
+constexpr double kErrorOfEdge = 5e-4;      // share of an element's edge [-]
+constexpr double kFinestTolerance = 1e-7;  // still above rounding [-]
 
-// What further sweeps would add up to is some times what one changes: at a tolerance above this, piles would take
-// seconds longer to rest.
-constexpr double kCoarsestChange = 3e-3;  // at which sweeps end
+// The total of further sweeps is several times the change by one: with a larger tolerance, piles would take seconds
+// longer to come to rest.
+constexpr double kCoarsestChange = 3e-3;  // change at which sweeps end
 
 // Rows of others may be solved in single precision.
 constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
 
-// While the error is far above the tolerance, another round follows anyway, and takes up what the corrective solves of
-// this one leave: a share of their right-hand sides.
+// While the error is far above the tolerance, another outer iteration follows in any case and removes the residual of
+// this corrective solve: a larger share of its right-hand side is allowed.
 constexpr double kFarFromTolerance = 30;
 constexpr double kLooseShare = 0.1;
 
-// Every step brings the error of the guess down by this factor, to the tolerance at least: so errors of what is at
-// rest, which one step hands on to the next, die out within a few. A guess that is much better needs no round.
+// Every step reduces the error of the warm start by this factor, to the tolerance at least: errors of resting contacts,
+// which are passed on from step to step, vanish within a few. A much better warm start needs no outer iteration.
 constexpr double kForcing = 0.1;
-constexpr double kRestShare = 0.01;   // of the tolerance
-constexpr double kFinestRest = 3e-6;  // but never finer than this [-]
+constexpr double kRestShare = 0.01;   // share of the tolerance
+constexpr double kFinestRest = 3e-6;  // lower bound [-]
 
-// Where a guess is nearer than this, bodies are all but at rest, and what sweeps leave of the coarse level would lean
-// stacks over. What falls, slides and tips finds other points in every step, and would take more sweeps for it.
+// With a better warm start than this, bodies are nearly at rest, and the remaining error on the coarse level would tilt
+// stacks. Falling, sliding and tipping bodies have other contact points in every step, and would need more sweeps for
+// it.
 constexpr double kCalmGuess = 2e-2;
 
-// A guess that makes points close, or throws them apart, this many times faster than they close without it or than
-// loads make them is none. Of points of rigid proxies that can move nothing is known yet: what they touch, which has no
-// guess, may hold them against it.
+// A warm start is rejected if it makes points approach or separate this many times faster than without it, or than the
+// loads do. Points of movable rigid proxies are excluded: their other contacts, which have no warm start, may balance
+// it.
 constexpr double kBadGuess = 5;
 
-// A step does not end with impulses that leave more speed than there was to begin with, some 1, and this many times
-// that of its best round. A smaller one may be that of rounds in which the rows of others have come nearer.
+// A step never ends with impulses that leave more speed than at its beginning (relative error some 1) and this many
+// times the speed of the best outer iteration. A smaller error may belong to an iteration in which rows of others were
+// nearer to convergence.
 constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 
-// A round that leaves more than this share of a small error has met the error of the corrective solves, or points that
-// slide and hand their load on to each other bit by bit, which the next step takes up. Where W is too soft, every round
-// goes a part of the way. Impacts may take rounds that seem to lead nowhere.
+// If an outer iteration leaves more than this share of a small error, the error is that of the corrective solves, or of
+// sliding points that pass load on gradually, which the next step corrects. If W is too soft, every outer iteration
+// removes only a part. Impacts may take several iterations without visible progress.
 struct Standstill
 {
     double m_share, m_smallError;
 };
 constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
 
-// A rigid proxy's own displacement, h pushLinear, changes its angular momentum too; then its spin changes by the sum of
-// all. Of an articulated one, whoever knows its joints makes the sum.
+// The displacement of a rigid proxy by position correction, h pushLinear, also changes its angular momentum; its spin
+// then changes by the sum of all. For articulated proxies the caller, who knows the joints, forms the sum.
 void payBackOwn(RigidProxy& rigidProxy, double h)
 {
     if (rigidProxy.m_responseCount > 0) return;
@@ -218,7 +221,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_isCalm = false;
     s.m_progress = {};
     s.m_stalled = s.m_loose = s.m_othersMoved = false;
-    // What was right a step ago is tried on the true system first, and W has only the difference to answer for.
+    // The warm start is first tested on the true system, so that W serves only for the difference.
     const bool guesses = anyExpects || s.m_rows.hasImpulses();
     if (guesses)
         guess();
@@ -238,18 +241,18 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     if (!joints) s.m_floor = residualFloor(s.m_settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_isCalm = s.m_error < kCalmGuess;
     s.m_best = std::numeric_limits<double>::infinity();
-    if (guesses || !joints) noteBest();  // to let go of all joints is no answer
+    if (guesses || !joints) noteBest();  // zero impulses of joints are no acceptable solution
 }
 
-// As a share of the speed scale. What joints lack is brought to the tolerance of contacts.
+// Error relative to the speed scale; the error of joints is rescaled to the tolerance of contacts.
 double ContactSolver::errorNow() const
 {
     const Scratch& s = *m_scratch;
     return std::max(s.m_rows.share(s.m_found.m_wanted), s.m_settings.m_tolerance / kJointTolerance * errorOfJoints());
 }
 
-// The same, in which joints count like contacts: their share of the error is nothing where the tolerance is that of
-// something fast, and a round that leaves a node a hundred times as fast would be the best.
+// Remaining speed relative to the scale, with joints weighted like contacts: in errorNow() their share vanishes if the
+// scale is a high speed, and an outer iteration that leaves a node a hundred times as fast could count as the best.
 double ContactSolver::speedLeft() const
 {
     const Scratch& s = *m_scratch;
@@ -263,8 +266,8 @@ double ContactSolver::errorOfJoints() const
                     s.m_rows.share(s.m_gcr.largestSpeed()));
 }
 
-// Where bodies are jammed or deep in each other the impulses of the last step may be those of another world: what they
-// do would be the scale of this step's errors, and its impulses the next guess.
+// Applies the warm start, and rejects it if it is bad: if bodies are jammed or penetrate deeply, the impulses of the
+// last step may be meaningless, and would set the scale of this step's errors and the next warm start.
 void ContactSolver::guess()
 {
     Scratch& s = *m_scratch;
@@ -275,12 +278,13 @@ void ContactSolver::guess()
     s.m_guessing = false;
     if (!(std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without)) return;
     s.m_rows.takeBack();
-    s.m_error = 0;  // no loose solve
+    s.m_error = 0;  // accurate solve
     correct();
     s.m_stalled = false;
 }
 
-// Where W is far from what bodies answer, as of strained ones in a jam, a round may leave much more than it found.
+// If W is far from the bodies' true response, as for strained bodies in a jam, an outer iteration may increase the
+// error considerably.
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;
@@ -307,7 +311,7 @@ void ContactSolver::restoreBest()
     Scratch& s = *m_scratch;
     if (!shouldRollBack()) return;
     s.m_rows.restoreBest();
-    s.m_error = 0;  // no loose solve
+    s.m_error = 0;  // accurate solve
     correct();
 }
 
@@ -380,7 +384,7 @@ ContactReport ContactSolver::finish()
     {
         s.m_gcr.takeBest();
         correct();
-        restoreBest();  // what they were to leave was told by rounds in which contacts had other impulses
+        restoreBest();  // the residual predicted by GCR assumed other contact impulses
     }
     s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();

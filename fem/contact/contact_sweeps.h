@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// Sweeps over rows, of the kind that their bodies allow. Grows with the problem, never shrinks.
+/// Sweeps over rows, by the method that their bodies permit. Grows with the problem, never shrinks.
 class ContactSweeps
 {
 public:
@@ -20,39 +20,39 @@ public:
     {
     }
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
-    /// Brings the velocities of the rows' ends up to the bodies' true ones.
+    /// Updates the velocities of the rows' sides from the bodies' true ones.
     void measure();
 
-    /// Looks at all rows, which have just been measured: the next sweep need not look for those that want something.
+    /// Surveys all rows after measure(): the next sweep need not search for rows that require a change.
     RowSurvey look();
 
-    /// Joints are solved in every sweep.
+    /// The joints, which are solved in every sweep.
     JointSystem& joints() { return m_joints; }
 
-    /// Forgets all that sweeps have found out.
+    /// Drops the state of previous sweeps.
     void reset();
 
-    /// Rows of others have changed the rigid proxies' velocities since the last sweep.
+    /// Call after rows of others have changed the rigid proxies' velocities.
     void othersMoved() { m_inTurn.othersMoved(); }
 
-    /// One sweep; the velocities of ends and rigid proxies follow. True if an impulse changed, or is to change, by more
-    /// than the tolerance: the speed that it gives a row's own point over the scale; after a gradient step, of which
-    /// many short ones make up a way, what a whole step of every row alone would still change.
+    /// One sweep; the velocities of sides and rigid proxies follow. True if an impulse changed, or should change, by
+    /// more than the tolerance, measured as the velocity of a row's own point over the scale; after a gradient step,
+    /// which is one of many short ones, by a full step of every row alone.
     bool sweep(double tolerance);
 
-    /// After the last sweep of a round: what they leave of the coarse level is corrected.
+    /// Call after the last sweep of an outer iteration: corrects the remaining error on the coarse level.
     void end() { m_inTurn.end(); }
 
-    /// True if the last sweep changed a velocity by so much that sweeping leads nowhere.
+    /// True if the last sweep diverged.
     bool runsAway() const;
 
-    /// Takes back the impulses on all bodies and rigid proxies that run away, and holds them no more in this step.
+    /// Removes the impulses on all diverging bodies and rigid proxies, and releases these for the rest of the step.
     void letGo();
 
-    /// What the last sweep in turn changed, as a share of the scale; 0 of one at once, whose short steps need not
+    /// Change by the last Gauss-Seidel sweep relative to the scale; 0 after a gradient step, whose short steps need not
     /// shrink.
     double lastChange() const { return m_rows.isDense() ? m_inTurn.lastChange() : 0; }
 
@@ -61,7 +61,7 @@ private:
     JointSystem m_joints;
     ProjectedGaussSeidel m_inTurn;
     AcceleratedProjectedGradient m_atOnce;
-    std::vector<unsigned char> m_runaways;  // per mover of the rows: is being let go
+    std::vector<unsigned char> m_runaways;  // per mover of the rows: it is released
 };
 
 }  // namespace bullet_fem

@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-// Sums that do not wait for each other.
+// Number of independent partial sums.
 double rowProduct(const double* a, const double* b, std::size_t count)
 {
     constexpr std::size_t kSums = 8;
@@ -64,7 +64,7 @@ void EnvelopeFactor::set(int i, int j, const Mat3& block)
         for (int d = 0; d < 3; ++d) at[d] = block(c, d);
 }
 
-// Of two rows of L, over what both have to the left of block j.
+// Product of two rows of L over their common columns left of block j.
 void EnvelopeFactor::subtractProducts(int i, int j, double* block) const
 {
     const int first = std::max(m_first[i], m_first[j]);
@@ -100,7 +100,7 @@ void EnvelopeFactor::factor(const unsigned char* held)
     }
 }
 
-// Of a row whose last block is W less the products.
+// Factors the diagonal block of a row, which holds W minus the products.
 void EnvelopeFactor::factorDiagonal(int i, const unsigned char* held)
 {
     const std::size_t stride = length(i), own = stride - 3;

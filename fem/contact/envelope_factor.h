@@ -10,24 +10,23 @@
 namespace bullet_fem
 {
 
-/// A symmetric, positive semi-definite matrix of 3x3 blocks, and its Cholesky factor W = L L^T, both stored row by row
-/// from the first block that is not zero on: L has no others [George & Liu 1981]. An unknown that hangs on those before
-/// it, as that of a constraint given twice does, or that is held, gets no answer, and the others are solved as if it
-/// were not there. Grows, never shrinks.
+/// A symmetric positive semidefinite matrix of 3x3 blocks and its Cholesky factor W = L L^T, both stored by rows from
+/// the first nonzero block on; L has no further fill [George & Liu 1981]. Linearly dependent unknowns, as of redundant
+/// constraints, and held unknowns get the value 0, and the others are solved without them. Grows, never shrinks.
 class EnvelopeFactor
 {
 public:
-    /// A pivot below this share of its diagonal is that of an unknown that hangs on others: what single precision, in
-    /// which W is formed, leaves of a zero [-].
+    /// A pivot below this share of its diagonal counts as zero, that is as a linearly dependent unknown; W is formed in
+    /// single precision [-].
     static constexpr double kDependent = 1e-6;
 
-    /// Makes room for so many rows, and so many blocks in all of them.
+    /// Reserves memory for this many rows, and this many blocks in total.
     void reserve(std::size_t rows, std::size_t blocks);
 
-    /// Forgets all rows.
+    /// Removes all rows.
     void clear();
 
-    /// The next row, whose first block that is not zero is `first`, in [0, its own number]. Its blocks are zero.
+    /// Appends a zero row with the first stored block `first`, in [0, its own index].
     void addRow(int first);
 
     int rows() const { return static_cast<int>(m_first.size()); }
@@ -36,20 +35,20 @@ public:
     /// Sets a block on or below the diagonal, first(i) <= j <= i.
     void set(int i, int j, const Mat3& block);
 
-    /// Adds to a number in such a block: three a row.
+    /// Adds to an entry of such a block; each block row has three scalar rows.
     void add(int i, int j, double value)
     {
         const int row = i / 3;
         m_W[m_start[row] + (i % 3) * length(row) + static_cast<std::size_t>(j - 3 * m_first[row])] += value;
     }
 
-    /// Factors; held[3 i + c] != 0 for unknowns that get no answer.
+    /// Factors; held[3 i + c] != 0 for unknowns that get the value 0.
     void factor(const unsigned char* held);
 
-    /// x = W^-1 x, three values a row; 0 of those without an answer.
+    /// x = W^-1 x, three values per row; 0 for held and dependent unknowns.
     void solve(double* x) const;
 
-    /// Multiplications that factoring a row of so many blocks takes, roughly [-].
+    /// Approximate number of multiplications for a row of this many blocks [-].
     static double work(double blocks) { return 4.5 * blocks * blocks; }
 
 private:
@@ -59,8 +58,8 @@ private:
     void factorDiagonal(int i, const unsigned char* held);
 
     std::vector<int> m_first;
-    std::vector<std::size_t> m_start;  // per row: of its three rows of numbers
-    std::size_t m_size = 0;            // numbers in all rows
+    std::vector<std::size_t> m_start;  // per block row: start of its scalar rows
+    std::size_t m_size = 0;            // number of entries in all rows
     std::vector<double> m_W, m_L;
     std::vector<double> m_inverse;  // per unknown: one over the diagonal of L, or 0
 };

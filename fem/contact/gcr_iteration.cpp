@@ -10,10 +10,10 @@ namespace bullet_fem
 namespace
 {
 
-// A direction of which less than this is left beyond the others is rounding, as a share of its square.
+// A direction counts as rounding if less than this share of its square is left after orthogonalisation.
 constexpr double kSameDirection = 1e-10;
 
-constexpr double kMuchLess = 0.25;  // of a square
+constexpr double kMuchLess = 0.25;  // share of a square
 
 double product(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -65,14 +65,14 @@ void GcrIteration::look(bool othersMoved)
     m_joints.residual(m_now.m_left);
     m_now.m_answer.assign(m_now.m_left.begin(), m_now.m_left.end());
     m_joints.answer(m_now.m_answer);
-    // Contacts that came or went, joints that are held or released, and rows of others make another system of it.
+    // The system changes with the active contacts, the held joints, and rows of others.
     if (noteActing() || othersMoved || m_changes != m_joints.changes()) m_hasBest = false;
     m_changes = m_joints.changes();
     noteDirection();
     noteLargest();
 }
 
-// True if other contacts act than after the last round.
+// True if the active contacts differ from those of the previous outer iteration.
 bool GcrIteration::noteActing()
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
@@ -87,7 +87,8 @@ bool GcrIteration::noteActing()
     return changed;
 }
 
-// From the best so far to the last round, made orthogonal to the others; the best goes along it as far as that helps.
+// Adds the direction from the best combination to the last outer iteration, orthogonalised against the others, and
+// minimises along it.
 void GcrIteration::noteDirection()
 {
     if (!m_hasBest)
@@ -104,7 +105,7 @@ void GcrIteration::noteDirection()
     for (int k = 0; k < m_count; ++k)
         if (k != m_next) direction.add(-product(direction.m_left, m_directions[k].m_answer), m_directions[k]);
     const double square = direction.square();
-    // Between rounds that leave the same, rounding may make both negative.
+    // If two iterations leave equal residuals, rounding may make both negative.
     const double unit = square > kSameDirection * std::fabs(whole) ? 1 / std::sqrt(square) : 0;
     for (std::vector<double>* values : {&direction.m_impulse, &direction.m_left, &direction.m_answer})
         for (double& value : *values) value *= unit;

@@ -10,41 +10,42 @@
 namespace bullet_fem
 {
 
-/// The rounds of a solve as the steps of generalized conjugate residuals [Eisenstat et al. 1983]: the bodies' true
-/// systems are the operator, the joints' factor is the preconditioner. Each round starts from that combination of the
-/// impulses so far which leaves the least, so rounds converge however strained bodies are. Grows, never shrinks.
+/// The outer iterations of a solve as generalized conjugate residuals [Eisenstat et al. 1983]: the bodies' true systems
+/// are the operator, the joints' factor is the preconditioner. Each outer iteration starts from the combination of
+/// previous impulses with minimum residual, so it converges however strained the bodies are. Grows, never shrinks.
 class GcrIteration
 {
 public:
     /// Both must outlive it.
     GcrIteration(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints) {}
 
-    /// When the joints are assembled anew.
+    /// Call when the joints are assembled anew.
     void begin();
 
-    /// When the true velocities have been measured. `othersMoved`: rows of others have changed the bodies since.
+    /// Call after the true velocities were measured. `othersMoved`: rows of others have changed the bodies since.
     void look(bool othersMoved = false);
 
-    /// The largest impulse that a joint lacked then, as a share of the largest on its bodies; less than `negligible`
-    /// [m/s] of a row's own point is nothing.
+    /// Maximum missing impulse of a joint, relative to the maximum impulse on its bodies; values below `negligible`
+    /// [m/s], as velocity of a row's own point, count as zero.
     double largestShare(double negligible) const;
 
-    /// The largest speed at which the ends of a joint then missed what it asks for [m/s].
+    /// Maximum velocity error of a joint's sides [m/s].
     double largestSpeed() const;
 
-    /// After that, at the start of another round: gives the joints the best impulses, and tells them what these leave.
+    /// Call at the start of the next outer iteration: sets the best impulses of the joints, and passes them the
+    /// residual of these.
     void combine();
 
-    /// True if the best impulses leave much less than the last round has.
+    /// True if the residual of the best combination is much smaller than that of the last outer iteration.
     bool isBestBehind() const;
 
-    /// Gives the joints the best impulses, which the bodies are to be solved for.
+    /// Sets the best impulses of the joints; the bodies must then be solved for these.
     void takeBest();
 
 private:
-    static constexpr int kDirections = 20;  // that are remembered
+    static constexpr int kDirections = 20;  // directions that are kept
 
-    // Impulses [N s], what they leave [m/s], and the answer to that [N s]; or differences of them.
+    // Impulses [N s], their residual [m/s], and the preconditioned residual [N s]; or differences of these.
     struct Vectors
     {
         std::vector<double> m_impulse, m_left, m_answer;
@@ -62,14 +63,14 @@ private:
 
     ContactRows& m_rows;
     JointSystem& m_joints;
-    Vectors m_now, m_best;  // of the last round, and the best combination of all
+    Vectors m_now, m_best;  // of the last outer iteration, and of the best combination
     std::array<Vectors, kDirections> m_directions;
-    int m_count = 0, m_next = 0;  // of these, and where the next one goes
+    int m_count = 0, m_next = 0;  // number of directions, and the slot of the next one
     bool m_hasBest = false;
-    int m_changes = 0;                    // JointSystem::changes() that all this belongs to
-    std::vector<unsigned char> m_acting;  // per row: a contact that acted after the last round
+    int m_changes = 0;                    // JointSystem::changes() at the time of these data
+    std::vector<unsigned char> m_acting;  // per row: an active contact in the last outer iteration
     std::vector<double> m_before, m_shift;
-    std::vector<double> m_largest;  // impulse per body, of the last round [N s]
+    std::vector<double> m_largest;  // maximum impulse per body in the last outer iteration [N s]
 };
 
 }  // namespace bullet_fem

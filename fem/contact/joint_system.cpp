@@ -10,16 +10,16 @@ namespace bullet_fem
 namespace
 {
 
-// Multiplications that one factor may take, some 20 ms; where joints are more, parts of them are solved in turn.
+// Maximum multiplications of one factor, some 20 ms; larger joint systems are solved in parts, in turn.
 constexpr double kMaxWork = 6e7;
 constexpr int kJointsOfPart = 64;
 
-constexpr int kPatience = 30;          // changes of what is held, a step: each takes another factor
-constexpr double kNothing = 1e-7;      // share of the speed scale that is not worth an answer
-constexpr double kAtLimit = 1 - 1e-9;  // share of a limit that counts as all of it
+constexpr int kPatience = 30;          // maximum number of changes of the held set per step; each takes a new factor
+constexpr double kNothing = 1e-7;      // negligible share of the speed scale
+constexpr double kAtLimit = 1 - 1e-9;  // share of a limit that counts as the limit
 
-// Of what was missed, shares that a factor of another step's W may leave: below the first nothing is refined, above the
-// second it is the factor of another system.
+// Shares of a residual that a factor of an earlier step's W may leave: below the first no refinement is made, above the
+// second the factor is rejected.
 constexpr double kRefined = 1e-4, kMisleads = 0.1;
 
 double along(const ContactRow& row, int axis)
@@ -27,7 +27,7 @@ double along(const ContactRow& row, int axis)
     return dot(row.m_impulse, row.m_axes[axis]);
 }
 
-// What a joint may have of an impulse; notes along which axes that is at a limit.
+// Clamps a joint's impulse to its limits, and marks the axes at a limit.
 Vec3 withinLimits(const ContactRow& joint, Vec3 impulse, unsigned char* held)
 {
     for (int i = 0; i < 3; ++i)
@@ -65,7 +65,7 @@ void JointSystem::begin()
         for (int i = 0; i < 3; ++i)
         {
             m_isIdle[3 * k + i] = joint.m_idle || !(joint.m_rowCompliance[i] > 0) || !(joint.m_limit[i] > 0) ||
-                                  !isFinite(joint.m_target);  // what is no number is never applied
+                                  !isFinite(joint.m_target);  // NaN is never applied
             m_isHeld[3 * k + i] =
                 m_isIdle[3 * k + i] || atMost || std::fabs(along(joint, i)) >= kAtLimit * joint.m_limit[i];
             joint.m_held = joint.m_held || (m_isHeld[3 * k + i] && !m_isIdle[3 * k + i]);
@@ -78,7 +78,7 @@ void JointSystem::begin()
 
 void JointSystem::reform()
 {
-    ++m_changes;  // what was noted of the system before is of another one
+    ++m_changes;  // records of the former system are obsolete
     for (int p = 0; p < m_partCount; ++p)
     {
         for (int k = m_parts[p].m_begin; k < m_parts[p].m_end; ++k)
@@ -87,7 +87,7 @@ void JointSystem::reform()
     }
 }
 
-// The first joint that has the same owner: a body, or a rigid proxy that can move, with all that moves with it.
+// The first joint with that owner: a body, or a movable rigid proxy with all that moves with it.
 int JointSystem::firstWithOwner(const ConstraintSide& end, int joint)
 {
     const ContactProblem& problem = m_rows.problem();
@@ -139,7 +139,7 @@ void JointSystem::addRows(Part& part)
         part.m_factor.addRow(m_turned.has(k) ? k - part.m_begin : std::max(m_profile[k] - part.m_begin, 0));
 }
 
-// The others of its body go with it: what was noted of the system before is of another one.
+// The body's other joints are dropped with it: records of the former system are obsolete.
 void JointSystem::dropTurned(Part& part, int joint)
 {
     m_turned.drop(joint);
@@ -220,7 +220,7 @@ double JointSystem::solve()
     return left;
 }
 
-// What is held once more by what it wants, then the others at once: again where one of them then exceeds its limit.
+// Sweeps held joints once, then solves the others at once, repeatedly while one of them exceeds its limit.
 double JointSystem::solvePart(Part& part)
 {
     double held = 0, missed = 0;
@@ -238,7 +238,7 @@ double JointSystem::solvePart(Part& part)
     return m_partCount > 1 ? std::max(held, largest) : held;
 }
 
-// Notes what the ends' velocities lack, and returns the largest of it [m/s].
+// Computes the residual of the sides' velocities, and returns its maximum [m/s].
 double JointSystem::missBy(const Part& part)
 {
     double largest = 0;
@@ -254,8 +254,8 @@ double JointSystem::missBy(const Part& part)
     return largest;
 }
 
-// A factor that is not of this step's W leaves what W in single precision makes of the rotations; where it leaves more,
-// as of a system that is all but singular, it is not used again in this step.
+// A factor of an earlier step leaves the single-precision error of the rotated W; if it leaves more, as for a nearly
+// singular system, it is not used again in this step.
 double JointSystem::refine(Part& part, double missed)
 {
     const double left = missBy(part);
@@ -268,7 +268,7 @@ double JointSystem::refine(Part& part, double missed)
     return largest;
 }
 
-// Velocities of dense bodies follow at once where their ends work.
+// Velocities of dense bodies follow immediately at sides in the working set.
 void JointSystem::follow()
 {
     if (!m_rows.isDense() || !m_work) m_rows.flush();
@@ -314,8 +314,8 @@ bool JointSystem::isBeyondLimits(const ContactRow& joint, const Vec3& impulse) c
     return isBeyond;
 }
 
-// Gives joints whose changes would lead beyond their limits what they may have, and holds them there. True if there are
-// any, and all are to be solved again.
+// Clamps joints whose changes would exceed their limits, and holds them. True if there are any, and all must be solved
+// again.
 bool JointSystem::holdBeyondLimits(Part& part, double& largest)
 {
     bool any = false;
@@ -337,7 +337,7 @@ bool JointSystem::holdBeyondLimits(Part& part, double& largest)
     return any;
 }
 
-// Where patience is over limits are kept all the same.
+// Limits are enforced even if m_patience is used up.
 double JointSystem::takeChanges(const Part& part)
 {
     double largest = 0;

@@ -11,13 +11,13 @@ namespace bullet_fem
 namespace
 {
 
-// Of a set of so many nodes, whose factor has no zeros: the matrix and the factor, [B].
+// Memory of a set of this many nodes, with a full matrix and factor [B].
 std::size_t bytesOfFactor(std::size_t nodes)
 {
     return 2 * sizeof(double) * 9 * nodes * (nodes + 1) / 2;
 }
 
-// From one column of the two, as of what is symmetric, whichever the order of the nodes.
+// Uses one of the two symmetric entries, independent of the order of the nodes.
 Mat3 blockBetween(int a, int b, const ComplianceCache& columns)
 {
     return a >= b ? columns.block(a, b) : transpose(columns.block(b, a));
@@ -53,7 +53,7 @@ std::shared_ptr<const EnvelopeFactor> NodeSetFactors::of(const std::vector<int>&
     return m_kept.back().m_factor;
 }
 
-// Lets go of those that nobody has asked for longest.
+// Drops the least recently used sets.
 void NodeSetFactors::makeRoom(std::size_t bytes)
 {
     for (const Kept& kept : m_kept) bytes += bytesOfFactor(kept.m_nodes.size());

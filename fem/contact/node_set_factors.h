@@ -12,15 +12,15 @@ namespace bullet_fem
 
 class ComplianceCache;
 
-/// Cholesky factors of the blocks of A0^-1 between sets of nodes of one model: constants, as the columns are that they
-/// are made of, whoever asked for them before. The latest ones are kept within a budget. Allocates where a set is new.
+/// Cholesky factors of the blocks of A0^-1 between sets of nodes of one model. They are constants, because the columns
+/// are, and do not depend on earlier requests. The latest ones are kept within a budget. Allocates for a new set.
 class NodeSetFactors
 {
 public:
-    static constexpr std::size_t kBudget = 16'000'000;  ///< for all that are kept: 15 sets of 121 nodes [B]
+    static constexpr std::size_t kBudget = 16'000'000;  ///< for all kept sets: 15 sets of 121 nodes [B]
 
-    /// The factor for these nodes in this order, three rows a node. Valid for as long as it is held. The nodes must be
-    /// among those that the cache was made for; requests their columns of it where the set is new.
+    /// The factor for these nodes in this order, three rows per node. Valid as long as the pointer is held. The nodes
+    /// must be among those of the cache; requests their columns if the set is new.
     std::shared_ptr<const EnvelopeFactor> of(const std::vector<int>& nodes, ComplianceCache& columns);
 
 private:
@@ -31,7 +31,7 @@ private:
     };
     void makeRoom(std::size_t bytes);
 
-    std::vector<Kept> m_kept;  // that asked for last comes last
+    std::vector<Kept> m_kept;  // least recently used first
 };
 
 }  // namespace bullet_fem

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::size_t kTile = 16;  // of a transposition: what it reads and writes stays in the cache
+constexpr std::size_t kTile = 16;  // tile of a transposition, which fits in the cache
 
 void growTo(std::vector<float>& values, std::size_t size)
 {
@@ -123,7 +123,7 @@ Vec3 PointCompliance::read(int point, const std::vector<double>& slotValues) con
 
 const float* PointCompliance::columns(int point)
 {
-    const int only = m_first[point];  // of a point that is a node or a slot of its own
+    const int only = m_first[point];  // of a point that is a single node or slot
     if (m_first[point + 1] == only + 1 && m_weight[only] == 1)
         return column(3 * static_cast<std::size_t>(m_slot[only]));
     if (m_columnsOf[point] < 0)
@@ -143,7 +143,7 @@ const float* PointCompliance::columns(int point)
     return &m_columns[3 * m_rows * m_columnsOf[point]];
 }
 
-// What is at a point of three columns over the slots.
+// Values at a point of three columns over the slots.
 Mat3 PointCompliance::readColumns(int point, const float* columns) const
 {
     float w[9] = {};
@@ -180,7 +180,7 @@ void PointCompliance::turnNodes(const ContactBody& body)
     }
 }
 
-// The lower triangle of N, and all of the blocks on its diagonal.
+// The lower triangle of N, with full diagonal blocks.
 void PointCompliance::formNodeColumns(const ContactBody& body, double scale)
 {
     const RestFactor& factor = body.m_body->m_model->factor();
@@ -203,7 +203,7 @@ void PointCompliance::formNodeColumns(const ContactBody& body, double scale)
     }
 }
 
-// What single precision left asymmetric would feed energy to the sweeps.
+// Symmetrised, because rounding errors of single precision would add energy in sweeps.
 void PointCompliance::mirrorNodeColumns()
 {
     const std::size_t order = 3 * m_nodes.size();

@@ -11,16 +11,16 @@ namespace
 {
 
 constexpr int kMaxSweepsOfPush = 200;
-constexpr double kPushTolerance = 1e-4;       // share of the speed scale, as of contact
-constexpr double kLoosePushTolerance = 1e-3;  // at most: 1e-3 g h^2 of displacement, at 60 Hz 3e-6 m
+constexpr double kPushTolerance = 1e-4;       // share of the speed scale, as in contact
+constexpr double kLoosePushTolerance = 1e-3;  // upper bound: 1e-3 g h^2 of displacement, at 60 Hz 3e-6 m
 
-// A tenth of what contact is solved to, within bounds.
+// A tenth of the contact tolerance, within bounds.
 double pushTolerance(double contactTolerance)
 {
     return std::clamp(0.1 * contactTolerance, kPushTolerance, kLoosePushTolerance);
 }
 
-// At which a penetration shall be taken back [m/s].
+// Separation speed that corrects a penetration [m/s].
 double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
 {
     const double depth = std::max(0.0, -contact.m_gap - contact.m_slop);
@@ -52,7 +52,7 @@ bool PositionCorrection::isNeeded() const
                        });
 }
 
-// Nodes move with the mean of the velocities before and after an impulse, but shall end where its row wants them. True
+// Nodes move with the mean of the velocities before and after an impulse, but should end where its row requires. True
 // if they do not.
 bool PositionCorrection::lags() const
 {
@@ -75,7 +75,7 @@ bool PositionCorrection::lags() const
     return false;
 }
 
-// Along the axes of a rigid joint: how much faster its ends must move to end where they shall [m/s].
+// Additional speed along the axes of a rigid joint for its sides to reach their target [m/s].
 Vec3 PositionCorrection::lagOf(const ContactRow& row, const Joint& joint) const
 {
     Vec3 lag;
@@ -86,8 +86,8 @@ Vec3 PositionCorrection::lagOf(const ContactRow& row, const Joint& joint) const
     return lag;
 }
 
-// From here on all velocities are those of the push, and impulses what it adds to the share that moves the nodes
-// anyway.
+// From here on all velocities are those of the position correction, and impulses are additions to the share that moves
+// the nodes anyway.
 void PositionCorrection::prepare()
 {
     const std::vector<ContactPoint>& contacts = m_rows.problem().m_contacts;
@@ -103,7 +103,7 @@ void PositionCorrection::prepare()
                     prepareContact(contacts[k], row);
                 else
                     row.m_target = {};
-                row.m_idle = row.m_idle || row.m_torsion;  // it has no part in displacements
+                row.m_idle = row.m_idle || row.m_torsion;  // excluded from displacements
                 if (isContact) m_base[k] = (1 - m_rows.theta(row)) * row.m_impulse;
                 row.m_impulse = m_base[k];
             }
@@ -117,7 +117,7 @@ void PositionCorrection::prepare()
     m_sweeps.reset();
 }
 
-// Penetrating points shall separate at a share of their depth a step, unless they do so already; the others shall not
+// Penetrating points must separate at a share of their depth per step, unless they do so already; the others must not
 // close their gap, and joints hold.
 void PositionCorrection::prepareContact(const ContactPoint& c, ContactRow& row) const
 {
@@ -125,7 +125,7 @@ void PositionCorrection::prepareContact(const ContactPoint& c, ContactRow& row) 
     const Vec3 mean = m_rows.meanVelocity(row);
     const double moving = dot(c.m_normal, mean);
     const double theta = m_rows.theta(row);
-    const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // to the rows
+    const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // for the rows
     row.m_target.x = c.m_gap < 0 ? pushSpeed(c, m_rows.settings()) - (moving - left) : -(moving + c.m_gap / h);
     if (theta < 1)
     {
@@ -147,8 +147,8 @@ void PositionCorrection::prepareJoints()
     }
 }
 
-// What lies on a floor is not pushed into it: the soft body goes all the way. Whoever moves the rigid proxies takes
-// back what they penetrate.
+// A rigid proxy on a floor is not pushed into it: the soft body moves the whole distance. Penetration between rigid
+// bodies is corrected by the rigid solver.
 void PositionCorrection::prepareContacts()
 {
     const ContactProblem& problem = m_rows.problem();
@@ -188,7 +188,7 @@ int PositionCorrection::push()
     return sweeps;
 }
 
-// Whose joints share out the push is told its impulses.
+// Articulated proxies receive the impulses of the push, which their joints distribute.
 void PositionCorrection::sumImpulses()
 {
     const auto add = [this](const ConstraintSide& end, const Vec3& impulse)
@@ -208,7 +208,7 @@ void PositionCorrection::sumImpulses()
 }
 
 // Displacing a moving body changes its angular momentum about the origin. The movable rigid proxies that it was pushed
-// off take the opposite, in proportion to the push; where it was pushed off soft ones it spins itself.
+// off receive the opposite, in proportion to the push; for pushes between soft bodies, its own spin changes.
 void PositionCorrection::payBack()
 {
     const auto visitBodies = [this](auto visit)

@@ -9,28 +9,28 @@
 namespace bullet_fem
 {
 
-/// Takes penetration back: the same rows once more, for the velocities of position correction. Grows with the problem,
-/// never shrinks.
+/// Position correction: solves the rows again for velocities that remove penetration. Grows with the problem, never
+/// shrinks.
 class PositionCorrection
 {
 public:
     /// Rows and sweeps must outlive it.
     PositionCorrection(ContactRows& rows, ContactSweeps& sweeps) : m_rows(rows), m_sweeps(sweeps) {}
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
-    /// True if a penetration exceeds its slop, by more than sweeps would leave of it.
+    /// True if a penetration exceeds its slop by more than the tolerance of the sweeps.
     bool isNeeded() const;
 
-    /// When the impulses are stored, which it forgets. Returns the sweeps made.
+    /// Call after the impulses are stored, which it overwrites. Returns the number of sweeps.
     int push();
 
 private:
-    struct Pushed  // a body, by its position corrections
+    struct Pushed  // effect of position corrections on a body
     {
-        Vec3 m_gained;                     // angular momentum [kg m2/s]
-        double m_total = 0, m_bySoft = 0;  // impulses on it, and those of soft bodies [N s]
+        Vec3 m_gained;                     // gained angular momentum [kg m2/s]
+        double m_total = 0, m_bySoft = 0;  // sum of impulses on it, and of those by soft bodies [N s]
     };
 
     bool lags() const;
@@ -45,9 +45,9 @@ private:
 
     ContactRows& m_rows;
     ContactSweeps& m_sweeps;
-    std::vector<RigidProxy> m_own;  // the problem's, with their own velocities and what they felt for these
-    std::vector<Pushed> m_pushed;   // one a body
-    std::vector<Vec3> m_base;       // one a row: the share of its impulse that has not moved the nodes yet [N s]
+    std::vector<RigidProxy> m_own;  // the problem's proxies, with their velocities and impulses saved
+    std::vector<Pushed> m_pushed;   // one per body
+    std::vector<Vec3> m_base;       // one per row: share of its impulse that has not moved the nodes yet [N s]
     double m_step = 0;              // [s]
 };
 

@@ -11,26 +11,26 @@ namespace bullet_fem
 namespace
 {
 
-// A pair of ends is swept again where it has just changed by more than this share of the speed scale, and by more than
-// the tolerance: finer errors are between the pairs, not within them.
+// A pair of owners is swept again if it has just changed by more than this share of the speed scale, and by more than
+// the tolerance: smaller errors are between pairs, not within them.
 constexpr double kResweepError = 5e-3;
 constexpr int kMaxResweeps = 8;
 
-// A row that wants less than this share of the tolerance waits until it wants more, or until sweeps are to end: most of
-// what late ones would do. If it waited longer, piles would creep.
+// A row that requires less than this share of the tolerance waits until it requires more, or until sweeps are to end,
+// which saves most of the work of late sweeps. With a larger share, piles would creep.
 constexpr double kNegligible = 0.1;
 
-// What is no number is never applied.
-constexpr double kMax = std::numeric_limits<double>::max();  // of an impulse's square [N2 s2]
+// NaN is never applied.
+constexpr double kMax = std::numeric_limits<double>::max();  // maximum squared impulse [N2 s2]
 
-constexpr int kWorkingSetSweeps = 10;  // sweeps of a working set
-constexpr int kShortLife = 2;          // where a share of its rows has just joined it
+constexpr int kWorkingSetSweeps = 10;  // lifetime of a working set in sweeps
+constexpr int kShortLife = 2;          // lifetime after a share of its rows has just joined it
 constexpr double kJoinedShare = 0.02;  // that share
 
-// A mix may leave it; rounding does.
+// True if the impulse is in its friction cone up to rounding; Anderson mixing may leave it.
 bool isInCone(const ContactRow& row)
 {
-    constexpr double kWiderBy = 1e-3;  // share of the friction
+    constexpr double kWiderBy = 1e-3;  // share of the friction limit
     const double normal = dot(row.m_impulse, row.m_axes[0]), most = (1 + kWiderBy) * row.m_friction * normal;
     return !row.m_torsion && normal >= 0 && dot(row.m_impulse, row.m_impulse) - normal * normal <= most * most;
 }
@@ -49,7 +49,7 @@ void ProjectedGaussSeidel::begin()
     divideRows();
 }
 
-// Joints are swept in their order, and links of one multibody move each other: then there is one part.
+// Joints are swept in their order, and links of one multibody are coupled: then there is one part.
 void ProjectedGaussSeidel::divideRows()
 {
     const ContactProblem& problem = m_rows.problem();
@@ -68,9 +68,8 @@ void ProjectedGaussSeidel::restart()
     m_looked = m_hasSwept = false;
 }
 
-// Most points that were found near a surface carry nothing, and most of them never will: some sweeps go by without
-// looking at them. What carries an impulse, wants one or is a joint works. Where that changes, it is looked at again
-// soon.
+// Most candidate points never carry an impulse: some sweeps skip them. The working set has the rows with an impulse,
+// rows that require one, and joints. After changes it is chosen anew sooner.
 void ProjectedGaussSeidel::chooseWorkingSet()
 {
     if (!m_looked) lookForWork();
@@ -108,7 +107,7 @@ void ProjectedGaussSeidel::lookForWork()
     m_looked = true;
 }
 
-// If rows that rest are to change by more than the tolerance, the next sweep chooses another working set.
+// If rows outside the working set require a change above the tolerance, the next sweep chooses another working set.
 bool ProjectedGaussSeidel::restIsDone(double tolerance)
 {
     const std::vector<ContactRow>& rows = m_rows.rows();
@@ -154,10 +153,10 @@ void ProjectedGaussSeidel::sweepAll()
     m_lastChange = m_rows.share(std::max(m_lastSpeed, m_joints.solve()));
 }
 
-// Of the working ones, one pair of ends after another. Where that has much to do it is swept again at once, while what
-// its impulses move is in the cache; the changes that count are those of the first time. What runs away ends it where
-// it is: impulses would grow by orders of magnitude a row, and leave their rounding when they are taken back. Returns
-// the largest change [m/s], as sweepOnce does.
+// Sweeps the working rows, one pair of owners after another. A pair with large changes is swept again immediately,
+// while its data are in the cache; the returned change is that of the first pass. A diverging sweep ends at once:
+// impulses would grow by orders of magnitude per row, and leave rounding errors when removed. Returns the maximum
+// change [m/s], as sweepOnce does.
 double ProjectedGaussSeidel::sweepRows(Range rows)
 {
     const double much = std::max(kResweepError, m_rows.settings().m_tolerance);
@@ -174,7 +173,7 @@ double ProjectedGaussSeidel::sweepRows(Range rows)
     return largest;
 }
 
-// The rows from one on that have the same two ends' owners.
+// The consecutive rows from one on with equal owners.
 int ProjectedGaussSeidel::endOfPair(int begin, int end) const
 {
     const std::vector<ContactRow>& rows = m_rows.rows();

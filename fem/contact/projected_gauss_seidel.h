@@ -13,9 +13,9 @@
 namespace bullet_fem
 {
 
-/// Gauss-Seidel over rows whose bodies all have a dense compliance: over those that carry something, the working set,
-/// from what the coarse level has corrected, mixed by Anderson's acceleration; behind them the joints are solved. Grows
-/// with the problem, never shrinks.
+/// Projected Gauss-Seidel over rows whose bodies all have a dense compliance: over the working set of rows with load,
+/// after coarse correction, with Anderson acceleration; the joints are solved after each sweep. Grows with the problem,
+/// never shrinks.
 class ProjectedGaussSeidel
 {
 public:
@@ -25,25 +25,25 @@ public:
     {
     }
 
-    /// When the rows are assembled anew.
+    /// Call when the rows are assembled anew.
     void begin();
 
-    /// When the rows' velocities are measured anew: forgets the working set.
+    /// Call when the rows' velocities are measured anew: drops the working set.
     void restart();
 
-    /// The rows have noted what they want.
+    /// Call after the rows have marked what they require.
     void noteLooked() { m_looked = true; }
 
-    /// Rows of others have changed the rigid proxies' velocities since the last sweep.
+    /// Call after rows of others have changed the rigid proxies' velocities.
     void othersMoved() { m_looked = false; }
 
     /// See ContactSweeps.
     bool sweep(double tolerance);
 
-    /// After the last sweep of a round, where there was any: corrects the coarse level of what it was over.
+    /// Call after the last sweep of an outer iteration: corrects the coarse level of the working set.
     void end();
 
-    /// What the last sweep changed, as a share of the speed scale, and as a speed [m/s].
+    /// Change by the last sweep, relative to the speed scale, and as a speed [m/s].
     double lastChange() const { return m_lastChange; }
     double lastSpeed() const { return m_lastSpeed; }
 
@@ -62,14 +62,14 @@ private:
     JointSystem& m_joints;
     AndersonAcceleration m_mixing;
     CoarseCorrection m_coarse;
-    SweepParts m_parts;                  // of the rows
-    std::vector<int> m_working;          // rows that the sweeps are over, part by part
-    std::vector<unsigned char> m_works;  // per row: belongs to them
+    SweepParts m_parts;                  // parts of the rows
+    std::vector<int> m_working;          // rows of the working set, part by part
+    std::vector<unsigned char> m_works;  // per row: in the working set
     bool m_needsNone = false;            // no row is swept by itself
-    bool m_looked = false;               // the rows have noted what they want, and nothing has changed since
+    bool m_looked = false;               // the rows' marks are up to date
     int m_lifeOfSet = -1;                // sweeps until another is chosen; -1: there is none
-    bool m_hasSwept = false;             // since the restart
-    double m_negligible = 0;             // change of a row that waits [m/s]
+    bool m_hasSwept = false;             // a sweep was made since the restart
+    double m_negligible = 0;             // change below which a row waits [m/s]
     double m_lastChange = 0, m_lastSpeed = 0;
 };
 

@@ -67,7 +67,7 @@ Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
         speed += (k == rebound.m_first ? 1 : -1) * dot(n, proxies[k].velocityAt(rebound.m_point));
     }
     if (!(compliance > 0)) return {};
-    // An impulse that makes s of the speed s0 gives (s^2 - s0^2) / (2 compliance).
+    // An impulse that changes the separation speed from s0 to s adds the energy (s^2 - s0^2) / (2 compliance).
     const double maxSquared = speed * speed + 2 * compliance * std::max(rebound.m_energy, 0.0);
     const double wanted = std::min(rebound.m_speed, std::sqrt(maxSquared));
     if (!(wanted > speed)) return {};

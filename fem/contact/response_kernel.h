@@ -9,16 +9,16 @@
 namespace bullet_fem
 {
 
-/// Orders of responses are padded to a multiple of this: no kernel has a rest to do.
+/// Lengths of responses are padded to a multiple of this, so that kernels need no remainder loop.
 constexpr std::size_t kResponsePadding = 8;
 
-/// The least multiple of a number that is not less than a count.
+/// The smallest multiple of a number that is not less than a count.
 constexpr std::size_t padded(std::size_t count, std::size_t multiple)
 {
     return (count + multiple - 1) / multiple * multiple;
 }
 
-/// An impulse, and what its components do: w_c = m_columns + c m_stride.
+/// An impulse and the responses to its components: w_c = m_columns + c m_stride.
 struct Response
 {
     const float* m_columns = nullptr;
@@ -26,11 +26,11 @@ struct Response
     Vec3 m_impulse;
 };
 
-/// velocity_i += w_0i x + w_1i y + w_2i z of every response, in their order, for i in [0, order): a multiple of
-/// kResponsePadding. On the widest vectors that the processor has.
+/// velocity_i += w_0i x + w_1i y + w_2i z for every response, in their order, for i in [0, order), a multiple of
+/// kResponsePadding. On the widest vectors of the processor.
 void addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity);
 
-/// The same in plain C++: what the kernel is tested against.
+/// Reference in plain C++, against which the kernel is tested.
 namespace scalar
 {
 void addResponses(const Response* responses, std::size_t count, std::size_t order, double* velocity);

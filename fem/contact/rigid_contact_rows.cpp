@@ -33,8 +33,8 @@ void ContactRows::addRigidContactRow(const RigidContact& touch)
     m_rows.push_back(row);
 }
 
-// Friction presses harder by the lever that it has; where it would press more than it is pressed with, there is no end
-// of it [Painleve 1895], and led bodies with friction of 10 stop dead.
+// Friction may increase the normal load by its lever arm; beyond this share the load would have no bound [Painleve
+// 1895], and led bodies with a friction coefficient of 10 stop dead.
 void ContactRows::limitContactFriction(ContactRow& row)
 {
     const Vec3 byNormal = row.m_compliance * row.m_axes[0];
@@ -42,13 +42,13 @@ void ContactRows::limitContactFriction(ContactRow& row)
     row.m_friction = std::min(row.m_friction, kMaxPressing * dot(byNormal, row.m_axes[0]) / std::max(lever, 1e-300));
 }
 
-// The guesses of all other impulses push rigid proxies into what holds them. What that takes back is no change that
-// contact has to make.
+// Warm-start impulses of other rows push rigid proxies into their supports. The reaction to this is no change for which
+// the contact solve must account.
 bool ContactRows::settleRigidContacts()
 {
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
     const std::size_t end = first + m_problem->m_rigidContacts.size();
-    double most = 0, largest = 1;  // changes, of all sweeps and the last [m/s]
+    double most = 0, largest = 1;  // maximum changes, of all sweeps and of the last [m/s]
     for (int sweep = 0; sweep < kSettlingSweeps && largest > kTouchesSettled * most; ++sweep)
     {
         largest = 0;

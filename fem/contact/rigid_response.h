@@ -8,8 +8,8 @@
 namespace bullet_fem
 {
 
-/// Calls add(k, linear, angular) with the changes of velocity [m/s], [rad/s] of every rigid proxy k that an impulse [N
-/// s] and an angular impulse [N m s] about its centre on one rigid proxy moves.
+/// Calls add(k, linear, angular) with the velocity changes [m/s], [rad/s] of every rigid proxy k that moves by an
+/// impulse [N s] and an angular impulse [N m s] about its centre on one rigid proxy.
 template <class Add>
 void respond(const ContactProblem& problem, int rigidProxy, const Vec3& impulse, const Vec3& angular, const Add& add)
 {
@@ -23,8 +23,8 @@ void respond(const ContactProblem& problem, int rigidProxy, const Vec3& impulse,
     }
 }
 
-/// What an impulse at `from` does to the velocity at `of`, two ends on rigid proxies [1/kg]; angular ends have spins
-/// and angular impulses [1/(kg m)], [1/(kg m2)].
+/// Response of the velocity at `of` to an impulse at `from`, two sides on rigid proxies [1/kg]; angular sides have
+/// spins and angular impulses [1/(kg m)], [1/(kg m2)].
 inline Mat3 rigidCompliance(const ContactProblem& problem, const ConstraintSide& of, const ConstraintSide& from)
 {
     const RigidProxy& o = problem.m_rigidProxies[from.m_rigidProxy];

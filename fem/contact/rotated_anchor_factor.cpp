@@ -9,8 +9,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMinHeldNodes = 24;   // joints of a body: the factor of fewer takes less than 10 us
-constexpr int kMaxHeldNodes = 340;  // of which a factor takes 20 ms and 8 MB
+constexpr int kMinHeldNodes = 24;   // minimum number of joints of a body: smaller factors take less than 10 us
+constexpr int kMaxHeldNodes = 340;  // maximum number: a factor takes 20 ms and 8 MB
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void RotatedAnchorFactor::find(int first, const std::vector<unsigned char>& isHe
     }
 }
 
-// The node, if that is all that moves at the joint's ends, and W tells what it does; else -1.
+// The node, if it is all that moves at the joint's sides, and W describes its response; else -1.
 int RotatedAnchorFactor::nodeOf(int joint, const std::vector<unsigned char>& isHeld) const
 {
     const ContactRow& r = row(joint);

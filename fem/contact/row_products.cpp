@@ -19,10 +19,10 @@ namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Nine sums at once: six numbers are read for nine products.
+// Nine sums at once: six loads for nine products.
 void SubtractRowProducts(const RowTriple& a, const RowTriple& b, std::size_t count, double* block)
 {
-    const hn::CappedTag<double, 4> d;  // wider ones would leave long ends
+    const hn::CappedTag<double, 4> d;  // wider ones would leave long remainders
     using Vector = hn::Vec<decltype(d)>;
     const double *a0 = a.m_first, *a1 = a0 + a.m_stride, *a2 = a1 + a.m_stride;
     const double *b0 = b.m_first, *b1 = b0 + b.m_stride, *b2 = b1 + b.m_stride;

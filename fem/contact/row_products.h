@@ -7,18 +7,18 @@
 namespace bullet_fem
 {
 
-/// Three rows of numbers, the first at m_first.
+/// Three scalar rows, the first at m_first.
 struct RowTriple
 {
     const double* m_first = nullptr;
     std::size_t m_stride = 0;
 };
 
-/// block[3 c + d] -= sum over k < count of a_c[k] b_d[k]: what factors by rows are made of. On the widest vectors that
-/// the processor has.
+/// block[3 c + d] -= sum over k < count of a_c[k] b_d[k], the inner product of row-oriented factorization. On the
+/// widest vectors of the processor.
 void subtractRowProducts(const RowTriple& a, const RowTriple& b, std::size_t count, double* block);
 
-/// The same in plain C++: what the kernel is tested against.
+/// Reference in plain C++, against which the kernel is tested.
 namespace scalar
 {
 void subtractRowProducts(const RowTriple& a, const RowTriple& b, std::size_t count, double* block);

@@ -18,8 +18,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kForgetting = 0.99;  // of what was learnt, a step
-constexpr int kSamples = 16;          // ends that the diagonal of W is estimated from
+constexpr double kForgetting = 0.99;  // share of the learnt scale that is kept per step
+constexpr int kSamples = 16;          // sides from which the diagonal of W is estimated
 
 double speedByLoads(const Body& body, double step)
 {
@@ -123,7 +123,7 @@ void SoftBodyContacts::request(const Threads* threads)
 {
     if (m_points.points() == 0) return;
     m_points.request(m_body, threads);
-    if (m_body.m_compliance->forgets()) form();  // before the next body asks
+    if (m_body.m_compliance->forgets()) form();  // before the next body's request
 }
 
 void SoftBodyContacts::form()
@@ -143,7 +143,7 @@ void SoftBodyContacts::formOwn()
     for (int e = 0; e < size(); ++e) m_own[e] = m_points.block(e, e);
 }
 
-// Between a group of nodes, the nodes of the points, and the groups from it on.
+// Couplings between a group of nodes, the nodes of the points, and the groups from it on.
 void SoftBodyContacts::formGroup(int e)
 {
     const WarpedCompliance P(*m_body.m_body);
@@ -167,8 +167,8 @@ void SoftBodyContacts::formGroup(int e)
     }
 }
 
-// The mean of some blocks W_ee, turned to the world axes of none: contact rows are scaled by it alone. All of them feel
-// a unit impulse at once, with signs by which what they do to each other cancels [Hutchinson 1990].
+// Mean of some blocks W_ee, without rotation to world axes, which serves only to scale contact rows. All sides get a
+// unit impulse at once, with random signs that cancel their couplings [Hutchinson 1990].
 void SoftBodyContacts::estimateDiagonal()
 {
     const int samples = std::min(size(), kSamples);
@@ -262,7 +262,7 @@ void SoftBodyContacts::measure()
     if (m_dense)
     {
         measureSlots();
-        m_pushedAtRest = true;  // what works is to see the true velocities
+        m_pushedAtRest = true;  // the working set must get the true velocities
     }
     else
         for (int e = 0; e < size(); ++e) m_velocity[e] = m_before[e] = trueVelocity(e);
@@ -283,7 +283,7 @@ void SoftBodyContacts::measureSlots()
     m_slotBefore.assign(m_slotVelocity.begin(), m_slotVelocity.end());
 }
 
-// The nodes' shares of the impulses beyond those known; false if there are none.
+// Distributes the unapplied impulses to the nodes; false if there are none.
 bool SoftBodyContacts::gatherBeyond(const std::vector<Vec3>& known)
 {
     bool any = false;

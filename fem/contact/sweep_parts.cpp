@@ -48,7 +48,7 @@ void SweepParts::divide(bool many)
     m_unsorted.reserve(m_rows.size());
 }
 
-// Part k is cut into 2k and 2k + 1.
+// Part k is divided into 2k and 2k + 1.
 void SweepParts::cut(Range movers, int part, int levels)
 {
     if (levels == 0)
@@ -85,7 +85,7 @@ int SweepParts::longestAxis(Range movers) const
     return longest;
 }
 
-// Where the movers before have half of the rows.
+// Splits where the movers before have half of the rows.
 int SweepParts::middle(Range movers) const
 {
     long all = 0, before = 0;

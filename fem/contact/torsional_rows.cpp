@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rows of rolling and spinning friction: couples between a patch of nodes and a rigid proxy, as large as the contacts
-// between the two allow. A contact tells every change of its normal impulse to the row that it presses on, so sweeps
-// see Coulomb's law with the loads of the moment.
+// Rows of rolling and spinning friction: couples between a patch of nodes and a rigid proxy, limited by the normal
+// impulses of the contacts between the two. A contact adds every change of its normal impulse to the row that it loads,
+// so sweeps apply Coulomb's law with the present load.
 #include "fem/contact/contact_rows.h"
 
 namespace bullet_fem

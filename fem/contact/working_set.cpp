@@ -9,7 +9,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMaxLeft = 0.25;  // share of ends that may have left before the others move together
+constexpr double kMaxLeft = 0.25;  // share of sides that may have left before the set is compacted
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void WorkingSet::pack(PointCompliance& points, const std::vector<double>& slotVe
     }
 }
 
-// With room for some that will join; close together, because sweeps go through all of it again and again.
+// With room for some new sides; compact, because sweeps read all of it repeatedly.
 std::size_t WorkingSet::wantedStride(std::size_t ends) const
 {
     return padded(3 * std::min(ends + ends / 4 + 2, m_place.size()), kResponsePadding);
@@ -85,7 +85,7 @@ void WorkingSet::widen()
                            &m_W[column * m_stride] + 3 * m_packed);
 }
 
-// Columns, and rows in them, only ever move towards the front.
+// Columns, and rows within them, only move towards the front.
 void WorkingSet::dropThoseThatLeft()
 {
     const auto all =

@@ -70,14 +70,14 @@ struct ElementBlocks
 
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
     bool hasPatches() const { return !m_groups.empty(); }
-    /// Number of pieces that kernels divide into ranges: blocks, or groups of blocks with patches.
+    /// Number of work units that kernels divide into ranges: blocks, or groups of blocks with patches.
     int workUnitCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }
-    /// Number of pieces that hold about kBlocksPerChunk blocks, >= 1.
+    /// Number of work units that hold about kBlocksPerChunk blocks, >= 1.
     int workUnitsPerChunk() const;
 
     std::vector<ElementBlock<Real>> m_blocks;
     std::vector<PatchGroup> m_groups;   ///< empty without patches
-    std::vector<LawLanes<Real>> m_law;  ///< one a block; empty if all elements have Hooke's law
+    std::vector<LawLanes<Real>> m_law;  ///< one per block; empty if all elements have Hooke's law
     /// One a block: share of each element in its patch's volume [-]; empty without patches.
     std::vector<PatchShares<Real>> m_share;
     /// One a block; empty if no element is orthotropic, else of all elements.
@@ -108,7 +108,7 @@ struct NodeCorners
     static int corner(int e, int a) { return (e / kLanes * 4 + a) * kLanes + e % kLanes; }
 };
 
-/// Number of blocks for this many elements; arrays of Quaternion have kLanes entries a block.
+/// Number of blocks for this many elements; arrays of Quaternion have kLanes entries per block.
 constexpr int blockCount(int elements)
 {
     return (elements + kLanes - 1) / kLanes;

@@ -53,14 +53,14 @@ struct ElementPass
     CornerBlock<Real>* m_force;   ///< out
     WarpedBlock<Real>* m_warped;  ///< out
     bool m_isRotated = false;     ///< true: m_rotation already belongs to m_x, and stays unchanged
-    const StressBlock<Real>* m_initialStress = nullptr;  ///< one a block; null for none
-    /// Output for nonlinear laws (neo_hooke.h), one a block: the matrices C' of an ElementProduct. Null if
+    const StressBlock<Real>* m_initialStress = nullptr;  ///< one per block; null for none
+    /// Output for nonlinear laws (neo_hooke.h), one per block: the matrices C' of an ElementProduct. Null if
     /// ElementBlocks::m_law is empty.
     StressBlock<Real>* m_cofactor = nullptr;
 };
 
-/// Runs the pass over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
-/// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
+/// Runs the pass over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.
+/// Bitwise independent of the division into ranges. Never allocates; thread-safe on distinct work units.
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range pieces);
 

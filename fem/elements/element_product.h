@@ -19,11 +19,11 @@ struct ElementProduct
     double m_stiffnessFactor;                       ///< coefficient of K' in A, c h^2 + h beta [s2]
     const PaddedVec3* m_p;                          ///< per node; differences are taken in double, then rounded to Real
     CornerBlock<Real>* m_out;                       ///< out: f_a, to be summed by sumCorners()
-    const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one a block, from an ElementPass; null for none
+    const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one per block, from an ElementPass; null for none
 };
 
-/// Runs the product over pieces (ElementBlocks::workUnitCount()), on the widest vectors that the processor has. Bitwise
-/// independent of the division into ranges. Never allocates; thread-safe on distinct pieces.
+/// Runs the product over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.
+/// Bitwise independent of the division into ranges. Never allocates; thread-safe on distinct work units.
 template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range pieces);
 

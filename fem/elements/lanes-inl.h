@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Small matrices whose entries are SIMD vectors, one lane an element, with their transfer from and to nodes. Included
+// Small matrices whose entries are SIMD vectors, one lane per element, with their transfer from and to nodes. Included
 // once for every instruction set.
 #if defined(BULLETFEM_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BULLETFEM_LANES_INL_H

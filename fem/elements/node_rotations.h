@@ -20,7 +20,7 @@ struct NodeRotations
 {
     const NodeCorners* m_nodes;
     const Quaternion* m_rotation;  ///< rotations of the elements
-    NodeRotation* m_out;           ///< one a node
+    NodeRotation* m_out;           ///< one per node
 };
 
 /// Computes R_i of a range of nodes. Bitwise independent of the division into ranges. Never allocates; thread-safe on

@@ -14,9 +14,9 @@ struct NodeSums
 {
     const NodeCorners* m_nodes;
     const CornerBlock<Real>* m_corners;
-    const double* m_scale;  ///< one a node, or null: adds to m_out
-    const PaddedVec3* m_p;  ///< one a node; unused without a scale
-    Vec3* m_out;            ///< one a node
+    const double* m_scale;  ///< one per node, or null: adds to m_out
+    const PaddedVec3* m_p;  ///< one per node; unused without a scale
+    Vec3* m_out;            ///< one per node
 };
 
 /// Sums over a range of nodes. Bitwise independent of the division into ranges. Never allocates; thread-safe on

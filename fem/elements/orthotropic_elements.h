@@ -30,7 +30,7 @@ template <class Real>
 struct OrthotropicPass
 {
     ElementPass<Real> m_elements;      ///< m_warped is not written
-    OrthotropicBlock<Real>* m_warped;  ///< out, one a block
+    OrthotropicBlock<Real>* m_warped;  ///< out, one per block
 };
 
 /// Element product for general C, with H = R^T sum over b of (p_b - p_0) g_b^T and W from `rest`:

@@ -56,7 +56,7 @@ struct EdgeSmoothing
         std::int32_t m_domain[kLanes][6];  ///< domains of the six edges
     };
 
-    std::vector<BlockShares> m_lanes;  ///< one a block
+    std::vector<BlockShares> m_lanes;  ///< one per block
     std::vector<int> m_start = {0};    ///< start of each domain in the next two arrays, then the end
     std::vector<int> m_place;          ///< index of an element's first quad in an array of StrainQuads, taken as quads
     std::vector<Real> m_weight;        ///< weight of the element in the domain's mean [-]
@@ -66,8 +66,8 @@ struct EdgeSmoothing
 template <class Real>
 struct SmoothedStrain
 {
-    StrainQuads<Real>* m_element;  ///< one a block
-    DomainStrain<Real>* m_domain;  ///< one a domain
+    StrainQuads<Real>* m_element;  ///< one per block
+    DomainStrain<Real>* m_domain;  ///< one per domain
 };
 
 /// Element pass for smoothed strains: with eps_e and its rate in the element's frame, theta the mean volume change over
@@ -85,7 +85,7 @@ struct SmoothedPass
     const EdgeSmoothing<Real>* m_smoothing;  ///< not empty
     SmoothedStrain<Real> m_elastic;          ///< scratch, strains eps
     SmoothedStrain<Real> m_damped;           ///< scratch, eps + damping times its rate
-    SmoothedBlock<Real>* m_warped;           ///< output, one a block
+    SmoothedBlock<Real>* m_warped;           ///< output, one per block
 };
 
 /// Element product for smoothed strains, in the three stages findStrains, averageStrains, findForces.
@@ -95,17 +95,18 @@ struct SmoothedProduct
     ElementProduct<Real> m_elements;         ///< m_warped is unused
     const EdgeSmoothing<Real>* m_smoothing;  ///< not empty
     SmoothedStrain<Real> m_strain;           ///< scratch
-    TensionBlock<Real>* m_tension;           ///< scratch, one a block
+    TensionBlock<Real>* m_tension;           ///< scratch, one per block
     const SmoothedBlock<Real>* m_warped;     ///< output of the pass
 };
 
-// All run over ranges of pieces (ElementBlocks::workUnitCount()), of domains or of blocks, on the widest vectors that
-// the processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct ranges.
+// All run over ranges of work units (ElementBlocks::workUnitCount()), of domains or of blocks, on the widest vectors
+// that the processor has. Bitwise independent of the division into ranges. Never allocate; thread-safe on distinct
+// ranges.
 
-/// Rotations and strains of a range of pieces.
+/// Rotations and strains of a range of work units.
 template <class Real>
 void findStrains(const SmoothedPass<Real>& pass, Range pieces);
-/// Strains of the vector p, of a range of pieces.
+/// Strains of the vector p, of a range of work units.
 template <class Real>
 void findStrains(const SmoothedProduct<Real>& product, Range pieces);
 /// Means of a range of domains.

@@ -22,8 +22,8 @@ struct Panel
     int blocks() const { return (m_rowsBelow + m_columns + kPanelLanes - 1) / kPanelLanes; }
 };
 
-/// The steps of a solve with a panel; y has 3 entries a node, or 3 x 16 interleaved (Lanes). `scratch` has 16 blocks()
-/// entries (times 16), aligned to 64 bytes. Uses the widest vectors that the processor has.
+/// The steps of a solve with a panel; y has 3 entries per node, or 3 x 16 interleaved (Lanes). `scratch` has 16
+/// blocks() entries (times 16), aligned to 64 bytes. Uses the widest vectors that the processor has.
 void forwardPanel(const Panel& panel, float* y, float* scratch);
 void backwardPanel(const Panel& panel, float* y, float* scratch);
 void forwardPanelLanes(const Panel& panel, float* y, float* scratch);

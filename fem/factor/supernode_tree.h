@@ -31,7 +31,7 @@ struct SupernodeTree
     int longestRows() const;    ///< maximum m_rows [nodes]; 0 without supernodes
 };
 
-/// The supernodes of the factor of `pattern` (one entry a node block, diagonal included) in the elimination order
+/// The supernodes of the factor of `pattern` (one entry per node block, diagonal included) in the elimination order
 /// `order`, whose entry k is the row of the pattern eliminated k-th. Merges children into parents where that makes the
 /// triangular solves faster, at the price of a few stored zeros, and cuts very wide supernodes into chains. Permutes
 /// `order` accordingly (the fill is unchanged): on return its entry k belongs to column k of the tree. Throws

@@ -140,7 +140,7 @@ std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
     return faces;
 }
 
-/// Rejects elements with the same four nodes, in any order; returns if there are none.
+/// Rejects elements with four equal nodes, in any order; returns if there are none.
 void refuseRepeatedElements(const std::vector<Tet>& tets)
 {
     std::vector<std::pair<Tet, int>> sorted;  // nodes, ascending, and the element

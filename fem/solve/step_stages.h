@@ -25,7 +25,7 @@ void solveFreeMotion(Width& width)
     width.readState();             // y, v, M and the loads f_ext
     width.prescribeMomentum();     // linear and angular momentum that the loads prescribe for every free component
     width.passOverElements();      // rotations R_e, elastic forces f_el, A; and b
-    width.averageRotations();      // R_i of the preconditioner R A0^-1 R^T, one a node or one for the body
+    width.averageRotations();      // R_i of the preconditioner R A0^-1 R^T, one per node or one for the body
     width.eliminateFixedNodes();   // b_f -= A_fp dv_p
     width.addPredictedImpulses();  // adds contact's to b and to the prescribed momentum
     width.guessIncrement();        // warm start of dv from the last steps, with the prescribed momentum

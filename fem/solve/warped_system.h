@@ -18,7 +18,7 @@ bool isSinglePrecision(const StepSettings& settings);
 void prepareWarpedSystem(Body& body, const StepSettings& settings, const std::vector<Vec3>& positions,
                          const std::vector<Vec3>& viscous, std::vector<Vec3>& force);
 
-/// Computes the rotations of WarpedPreconditioner from those of the elements: one a node, or one for the body.
+/// Computes the rotations of WarpedPreconditioner from those of the elements: one per node, or one for the body.
 void averageNodeRotations(Body& body, const StepSettings& settings);
 
 /// Computes the factors of masses and K' in A, in the body's scratch: part of prepareWarpedSystem().
@@ -54,7 +54,7 @@ private:
     const Threads* m_threads;
 };
 
-/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with one rotation for the body (global) or one a node
+/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with one rotation for the body (global) or one per node
 /// (nodal). Nodes fixed at present have zero rows; nodes fixed only when the factor was built get the inverse of their
 /// diagonal.
 class WarpedPreconditioner : public LinearOperator

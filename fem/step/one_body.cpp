@@ -71,7 +71,7 @@ public:
 protected:
     bool isActuated() const { return m_body.m_actuators.hasPulls(); }
 
-    // Adds to the guess of dv the rigid motion that gives free components their prescribed momentum.
+    // Adds to the initial guess of dv the rigid motion that gives free components their prescribed momentum.
     void completeGuess()
     {
         std::vector<Vec3>& dv = m_scratch.m_increment;

@@ -82,7 +82,7 @@ void beginReactions(Body& body, double step)
     body.m_workspace.scratch().m_reactions.begin(*body.m_model, body.m_state, how);
 }
 
-// Those of actuators now, because the program may remove them before it asks.
+// Reactions of actuators are computed now, because the program may remove these before it reads the reactions.
 void noteReactions(Body& body, double share)
 {
     StepScratch& scratch = body.m_workspace.scratch();

@@ -7,9 +7,10 @@
 /// Bits of btSoftBody::m_cfg.collisions beyond Bullet's own, which ignores them.
 enum btFemCollisionFlags
 {
-    /// What collides is the surface that follows the tetrahedra (m_renderNodes, m_renderFaces), not their boundary: of
-    /// a cage the surface that it was made of. It is read when the body becomes FEM and when the bit is set; after
-    /// changes take it away, step, and set it again. One that cannot collide is refused: prepare() throws, and a step
-    /// goes on with the boundary, BT_FEM_BAD_SURFACE in its report.
+    /// The collision surface is the embedded surface, which follows the tetrahedra (m_renderNodes, m_renderFaces),
+    /// instead of their boundary; for a cage, that is the surface that it was made of. The surface is read when the
+    /// body becomes FEM and when the bit is set; after changing it, clear the bit, step, and set the bit again. An
+    /// unsuitable surface is refused: prepare() throws, and a step continues with the boundary and reports
+    /// BT_FEM_BAD_SURFACE.
     BT_FEM_RENDER_SURFACE = 1 << 16
 };

@@ -14,15 +14,15 @@ class btFemContactGroup;
 class btFemIslands;
 class btFemSoftBodySolver;
 
-/// Bullet's rigid solver with the FEM bodies in it: contacts and joints of soft bodies are swept together with those
-/// between rigid bodies, so stacks of rigid on soft on rigid converge within a step, rest, and sleep. Give it to the
-/// world's constructor in place of btSequentialImpulseConstraintSolver, with the same btFemSoftBodySolver as soft body
-/// solver; islands without FEM bodies are solved bit for bit as before. In those with FEM bodies Bullet's rigid rows
-/// are warm-started fully, with friction in two fixed directions, and swept as often as the soft ones.
+/// Bullet's rigid-body solver, with contacts and joints of FEM bodies swept together with those between rigid bodies
+/// (monolithic coupling), so that stacks of rigid on soft on rigid bodies converge within a step, come to rest and
+/// sleep. Give it to the world's constructor in place of btSequentialImpulseConstraintSolver, with the world's
+/// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's
+/// rigid rows are fully warm-started, with friction in two fixed directions, and get as many sweeps as the soft rows.
 ///
-/// Without it the rigid bodies feel a step's soft contacts after they have moved: momentum is exact all the same, and
-/// static supports are, but a rigid body at rest on a soft one reads a velocity of g h, and stacks in which the soft
-/// bodies are as heavy as the rigid ones fall.
+/// Without it (staggered coupling) rigid bodies receive the impulses of a step's soft contacts after they have moved.
+/// Momentum is still exact, and so are static reactions, but a rigid body at rest on a soft one reads a velocity of g
+/// h, and stacks whose soft bodies are as heavy as the rigid ones collapse.
 class BULLETFEM_API btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 {
 public:
@@ -39,7 +39,8 @@ public:
                         btIDebugDraw* debugDrawer, btDispatcher* dispatcher) override;
 
 protected:
-    /// Called by Bullet's solver for a group: its rows and the FEM bodies' in rounds. Returns 0.
+    /// Called by Bullet's solver for a group: sweeps its rows and those of the FEM bodies in outer iterations. Returns
+    /// 0.
     btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
                                                btPersistentManifold** manifolds, int numManifolds,
                                                btTypedConstraint** constraints, int numConstraints,

@@ -14,9 +14,10 @@ class btFemContactGroup;
 class btFemDeformableBodySolver;
 class btFemIslands;
 
-/// The btFemConstraintSolver of btDeformableMultiBodyDynamicsWorld, see btFemMultiBodyConstraintSolver: give it to the
-/// world's constructor in place of btDeformableMultiBodyConstraintSolver. Cloth and other bodies of Bullet's own that
-/// are in an island with FEM bodies are solved with it in every sweep, as Bullet does in each of its iterations.
+/// The counterpart of btFemConstraintSolver for btDeformableMultiBodyDynamicsWorld (see
+/// btFemMultiBodyConstraintSolver): give it to the world's constructor in place of
+/// btDeformableMultiBodyConstraintSolver. Cloth and other bodies of Bullet's own solver that share an island with FEM
+/// bodies are solved with it in every sweep, as Bullet does in each of its iterations.
 class BULLETFEM_API btFemDeformableConstraintSolver : public btDeformableMultiBodyConstraintSolver
 {
 public:
@@ -39,7 +40,8 @@ public:
                                   btDispatcher* dispatcher) override;
 
 protected:
-    /// Called by Bullet's solver for a group: its rows and the FEM bodies' in rounds. Returns 0.
+    /// Called by Bullet's solver for a group: sweeps its rows and those of the FEM bodies in outer iterations. Returns
+    /// 0.
     btScalar solveDeformableGroupIterations(btCollisionObject** bodies, int numBodies,
                                             btCollisionObject** deformableBodies, int numDeformableBodies,
                                             btPersistentManifold** manifolds, int numManifolds,

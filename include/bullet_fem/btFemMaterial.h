@@ -10,48 +10,48 @@
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
 
-/// Whether the tetrahedra of a patch (those of a cube of the lattice, or four to eight neighbours of any other mesh)
-/// share one volume change. Linear tetrahedra that each keep their own volume are too stiff where nu comes near .5.
+/// Mean dilatation: whether the tetrahedra of a patch (a lattice cube, or four to eight neighbours in any other mesh)
+/// share one volume change. Linear tetrahedra with separate volume changes lock where nu is near .5.
 enum class btFemMeanDilatation
 {
-    automatic,  ///< on where nu is above .4, and for accurate bending
+    automatic,  ///< on for nu above .4, and with accurate bending
     on,
     off
 };
 
-/// How stress follows from strain (docs/materials.md, Large strain).
+/// Constitutive law (docs/materials.md, Large strain).
 enum class btFemElasticLaw
 {
     hooke,       ///< linear in the strain of the rotated frame
-    neoHooke,    ///< the same at small strain; stiffens as it is stretched, and without bound as it is crushed
-    orthotropic  ///< linear as hooke, with the constants and axes of m_orthotropic in place of E and nu
+    neoHooke,    ///< equals hooke at small strain; stiffens in tension, and without bound in compression
+    orthotropic  ///< linear as hooke, with the constants and axes of m_orthotropic instead of E and nu
 };
 
-/// A part of the shear modulus that relaxes, g_i exp(-t / tau_i) of a Prony series.
+/// A term g_i exp(-t / tau_i) of the Prony series of the shear modulus.
 struct BULLETFEM_API btFemRelaxation
 {
-    btScalar m_share = btScalar(0);  ///< g_i of the shear modulus [-], in [0, 0.99]; 0 for none
-    btScalar m_time = btScalar(1);   ///< tau_i [s], in [1e-6, 1e9]
+    btScalar m_share = btScalar(0);  ///< relative modulus g_i [-], in [0, 0.99]; 0: no term
+    btScalar m_time = btScalar(1);   ///< relaxation time tau_i [s], in [1e-6, 1e9]
 };
 
-/// The constants of a material with three planes of symmetry, such as wood or what fibres reinforce, and where its axes
-/// 1, 2, 3 point. nu_ij is the contraction along j over the extension along i of a bar that is pulled along i;
-/// nu_ij / E_i = nu_ji / E_j. What makes the stiffness indefinite is refused (docs/materials.md, Orthotropic).
+/// Constants and axes 1, 2, 3 of a material with three planes of symmetry, such as wood or a fibre-reinforced solid.
+/// nu_ij is the contraction along j over the extension along i under tension along i, so nu_ij / E_i = nu_ji / E_j.
+/// Constants that make the stiffness indefinite are refused (docs/materials.md, Orthotropic).
 struct BULLETFEM_API btFemOrthotropic
 {
     btScalar m_young[3] = {btScalar(1e6), btScalar(1e6), btScalar(1e6)};    ///< E_1, E_2, E_3 [Pa], in (0, 1e13]
     btScalar m_poisson[3] = {btScalar(0.3), btScalar(0.3), btScalar(0.3)};  ///< nu_12, nu_13, nu_23 [-]
     btScalar m_shear[3] = {btScalar(4e5), btScalar(4e5), btScalar(4e5)};    ///< G_12, G_13, G_23 [Pa], in (0, 1e13]
-    /// Axis 1, in the axes of the rest shape: of the world as the body lies when it is first stepped or prepared. It
-    /// has any length but 0, and turns with the body from then on.
+    /// Axis 1, in the axes of the rest shape, that is of the world as the body lies when first stepped or prepared; it
+    /// then rotates with the body. Any nonzero length.
     btVector3 m_along = btVector3(1, 0, 0);
-    /// Axis 2 is what of this is perpendicular to axis 1; not parallel to it. Axis 3 is their vector product.
+    /// Its component perpendicular to axis 1 is axis 2; not parallel to m_along. Axis 3 is their cross product.
     btVector3 m_across = btVector3(0, 1, 0);
 };
 
-/// An elastic material with Rayleigh damping D = alpha M + beta K: isotropic and linear, where it may yield and relax,
-/// Neo-Hookean, or orthotropic (docs/materials.md). SI units whatever the scene's scale: a Bullet unit of length is a
-/// metre, of mass a kilogram.
+/// An elastic material with Rayleigh damping D = alpha M + beta K: isotropic and linear, optionally with yield and
+/// relaxation; Neo-Hookean; or orthotropic (docs/materials.md). In SI units whatever the scale of the scene: a Bullet
+/// unit of length is a metre, one of mass a kilogram.
 struct BULLETFEM_API btFemMaterial
 {
     btScalar m_youngModulus = btScalar(1e6);        ///< E [Pa], in (0, 1e13]
@@ -59,35 +59,37 @@ struct BULLETFEM_API btFemMaterial
     btScalar m_density = btScalar(1000);            ///< rho [kg/m3], in [0, 1e6]; 0 keeps the body's own node masses
     btScalar m_massDamping = btScalar(0);           ///< alpha [1/s], in [0, 1e4]
     btScalar m_stiffnessDamping = btScalar(0.005);  ///< beta [s], in [0, 10]
-    btFemMeanDilatation m_meanDilatation = btFemMeanDilatation::automatic;  ///< against volumetric locking
-    /// sigma_y [Pa], in (0, inf]: what strains beyond this von Mises stress does not come back; infinity never yields.
+    btFemMeanDilatation m_meanDilatation = btFemMeanDilatation::automatic;  ///< remedy against volumetric locking
+    /// Yield stress sigma_y [Pa], in (0, inf]: larger von Mises stresses cause plastic strain; infinity never yields.
     btScalar m_yieldStress = std::numeric_limits<btScalar>::infinity();
-    btScalar m_hardeningModulus = btScalar(0);  ///< H [Pa], in [0, 1e13]: sigma_y grows by H times the plastic strain
+    /// Hardening modulus H [Pa], in [0, 1e13]: sigma_y grows by H times the plastic strain.
+    btScalar m_hardeningModulus = btScalar(0);
     /// Rate at which stress beyond sigma_y decays, as exp(-rate t) [1/s], in (0, inf]; infinity: at once.
     btScalar m_plasticCreep = std::numeric_limits<btScalar>::infinity();
-    /// Largest plastic strain, sqrt(2/3 eps_p : eps_p) [-], in (0, 0.9]; strain beyond it is elastic again.
+    /// Maximum plastic strain, sqrt(2/3 eps_p : eps_p) [-], in (0, 0.9]; strain beyond it is elastic.
     btScalar m_mostPlasticStrain = btScalar(0.5);
-    static constexpr int kMaxRelaxationTerms = 3;  ///< of m_relaxation
+    static constexpr int kMaxRelaxationTerms = 3;  ///< capacity of m_relaxation
     [[deprecated("kMaxRelaxationTerms")]] static constexpr int kMostRelaxationTerms = kMaxRelaxationTerms;
-    /// Viscoelasticity: E and nu are those of fast loads, and mu (1 - sum g_i (1 - exp(-t / tau_i))) the shear modulus
-    /// after a time t; the bulk modulus stays. Those with a share stand first; the shares' sum is at most 0.99.
+    /// Viscoelasticity. With terms, E and nu are the instantaneous ones, and the shear modulus is mu (1 - sum g_i (1 -
+    /// exp(-t / tau_i))) at time t after loading; the bulk modulus does not relax. Terms with a share stand first; the
+    /// sum of the shares is at most 0.99.
     btFemRelaxation m_relaxation[kMaxRelaxationTerms];
-    /// The law; E and nu are those of small strain. A Neo-Hookean material does not yield or relax, and its elements
-    /// have their own volume change each.
+    /// Constitutive law; E and nu are its small-strain constants. A Neo-Hookean material cannot yield or relax, and its
+    /// elements each have their own volume change.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
-    /// Against locking in bending: shear strains are averaged around edges, as volume changes are over patches. Bars of
-    /// two cells across and more bend as they should within 6 %; a step takes two to three times as long. Not with mean
-    /// dilatation off, and not for materials that yield or relax (docs/materials.md).
+    /// Accurate bending: averages shear strains around edges, as volume changes over patches, against locking in
+    /// bending. Bars of two or more cells across have a bending error of at most 6 %; a step takes two to three times
+    /// as long. Not available with mean dilatation off, nor for materials that yield or relax (docs/materials.md).
     bool m_accurateBending = false;
-    /// Read with btFemElasticLaw::orthotropic alone, where E and nu are not. Such a material does not yield or relax,
-    /// does not bend accurately, and its elements have their own volume change each. For directions that change from
-    /// place to place, give setMaterials a function of the place.
+    /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
+    /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,
+    /// pass a function of position to setMaterials.
     btFemOrthotropic m_orthotropic;
 
-    /// An orthotropic material of which all directions across its fibres, m_orthotropic.m_along, are alike: Young's
-    /// modulus [Pa] and Poisson's ratio [-] of a bar that is pulled along its fibres, and across them in the plane in
-    /// which all is alike, and the modulus of shear along the fibres [Pa]. The rest is as of btFemMaterial(). Checked
-    /// as all materials are, where it is given to a body.
+    /// A transversely isotropic material with fibres along m_orthotropic.m_along and equal directions across: Young's
+    /// modulus [Pa] and Poisson's ratio [-] under tension along the fibres, and under tension across them within the
+    /// isotropic plane, and the shear modulus along the fibres [Pa]. All other values are those of btFemMaterial().
+    /// Checked when it is assigned to a body.
     static btFemMaterial transverselyIsotropic(btScalar youngAlong, btScalar youngAcross, btScalar poissonAlong,
                                                btScalar poissonAcross, btScalar shearAlong);
 

@@ -14,12 +14,12 @@ class btFemContactGroup;
 class btFemIslands;
 class btFemSoftBodySolver;
 
-/// The btFemConstraintSolver of btSoftMultiBodyDynamicsWorld: Bullet's solver of rigid bodies and multibodies with the
-/// FEM bodies in it. Contacts and joints of soft bodies are swept together with those between rigid bodies and links,
-/// with motors, limits and loops of multibodies, so a gripper of links presses with what its motors give, and at once.
-/// Give it to the world's constructor in place of btMultiBodyConstraintSolver, with the same btFemSoftBodySolver as
-/// soft body solver; islands without FEM bodies are solved bit for bit as before. In those with FEM bodies Bullet's
-/// rows are warm-started fully, with friction in two fixed directions, and swept as often as the soft ones.
+/// The counterpart of btFemConstraintSolver for btSoftMultiBodyDynamicsWorld: Bullet's solver of rigid bodies and
+/// multibodies, with contacts and joints of FEM bodies swept together with those between rigid bodies and links and
+/// with motors, limits and loops of multibodies. A gripper made of links presses with the force of its motors within
+/// the step. Give it to the world's constructor in place of btMultiBodyConstraintSolver, with the world's
+/// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's rows
+/// are fully warm-started, with friction in two fixed directions, and get as many sweeps as the soft rows.
 class BULLETFEM_API btFemMultiBodyConstraintSolver : public btMultiBodyConstraintSolver
 {
 public:
@@ -40,7 +40,8 @@ public:
                              btDispatcher* dispatcher) override;
 
 protected:
-    /// Called by Bullet's solver for a group: its rows and the FEM bodies' in rounds. Returns 0.
+    /// Called by Bullet's solver for a group: sweeps its rows and those of the FEM bodies in outer iterations. Returns
+    /// 0.
     btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
                                                btPersistentManifold** manifolds, int numManifolds,
                                                btTypedConstraint** constraints, int numConstraints,

@@ -5,11 +5,11 @@
 #include "LinearMath/btScalar.h"
 #include "bullet_fem/fem/common/export.h"
 
-// Bullet's headers serve both of its precisions, and most of their names are the same in both: a program that mixes
-// them may link, and writes beyond the ends of Bullet's objects. Every public header includes this one, which stops
-// that.
+// Bullet's headers serve both of its precisions, and most symbol names do not depend on the precision: a program that
+// mixes the two may link, and then writes beyond the ends of Bullet's objects. Every public header includes this one,
+// which prevents that.
 
-// When compiling: the target that is linked has told its precision, and what else is linked beside it.
+// Compile-time check: the linked target defines its precision and that of other linked targets.
 #if defined(BULLETFEM_PRECISION_float) && defined(BULLETFEM_PRECISION_float64)
 #error "BulletFEM::plugin and BulletFEM::plugin-float64 are both linked: choose the one that has Bullet's precision"
 #elif defined(BULLETFEM_PRECISION_float) && defined(BT_USE_DOUBLE_PRECISION)
@@ -24,9 +24,9 @@
 #error "BulletFEM::plugin-float64 is double precision, but Bullet's float libraries are linked: leave them out"
 #endif
 
-// When linking: whoever includes a public header needs a symbol that only the library of the same precision has. Its
-// name is what the linker says. `used` keeps the reference though nothing reads it; the two have different names, so
-// that the linker cannot take one for the other.
+// Link-time check: including a public header references a symbol that only the library of that precision defines. The
+// symbol's name is the linker's error message. `used` keeps the unread reference; the references have different names
+// per precision, so that the linker cannot merge them.
 #if defined(BT_USE_DOUBLE_PRECISION)
 #define BULLETFEM_PRECISION_TAG bulletfem_error__the_program_is_double_precision__link_plugin_float64_not_plugin
 #define BULLETFEM_PRECISION_REFERENCE btFemNeedsDoublePrecision
@@ -35,19 +35,19 @@
 #define BULLETFEM_PRECISION_REFERENCE btFemNeedsSinglePrecision
 #endif
 
-// The same for Bullet's version, as its headers have it: layouts differ between versions as well.
+// Link-time check of Bullet's version, because layouts differ between versions, too.
 #define BULLETFEM_JOIN(a, b, c) a##b##c
 #define BULLETFEM_JOINED(a, b, c) BULLETFEM_JOIN(a, b, c)
 #define BULLETFEM_VERSION_TAG \
     BULLETFEM_JOINED(bulletfem_error__the_program_has_headers_of_Bullet_, BT_BULLET_VERSION, __the_library_others)
 #define BULLETFEM_VERSION_REFERENCE BULLETFEM_JOINED(btFemNeedsBullet, BT_BULLET_VERSION, )
 
-/// Defined by the library; their values mean nothing.
+/// Defined by the library; the values have no meaning.
 extern "C" BULLETFEM_API const char BULLETFEM_PRECISION_TAG;
 extern "C" BULLETFEM_API const char BULLETFEM_VERSION_TAG;
 
-/// Makes every object file that includes a public header refer to the tag; `retain` also where the linker drops what
-/// nothing refers to (--gc-sections).
+/// Makes every object file that includes a public header refer to the tag; `retain` keeps the reference where the
+/// linker drops unreferenced data (--gc-sections).
 #if __has_cpp_attribute(gnu::retain) && !defined(_WIN32)
 #define BULLETFEM_RETAIN [[gnu::used, gnu::retain]]
 #else

@@ -9,19 +9,21 @@
 
 struct btFemRayHit;
 
-/// Pulls a point of a soft body to a place in the world, as a mouse or a hand does: a force k (target - x) - d v,
-/// limited, with x and v those at the end of the step. Stable at any stiffness and step.
+/// A spring that pulls a point of a soft body to a target in the world, as a mouse or a hand does: the force k (target
+/// - x) - d v, limited to m_maxForce, with position x and velocity v at the end of the step (implicit). Stable for any
+/// stiffness and step.
 struct BULLETFEM_API btFemSpring
 {
-    int m_nodes[3] = {0, 0, 0};         ///< nodes that carry the point; those without weight do not matter
-    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric [-], sum 1
-    btVector3 m_target{0, 0, 0};        ///< where the point shall be [m]
-    btScalar m_stiffness = 1000;        ///< k [N/m], in [0, 1e12]; beyond some mass / step^2 it is as good as rigid
-    btScalar m_damping = 0;             ///< d [N s/m], in [0, 1e12]: of the point's velocity in the world
-    btScalar m_maxForce = 0;  ///< [N], in [0, 1e12]; 0: no limit. Some 20 times the weight keeps a target that jumps
-                              ///< from tearing at the body
+    int m_nodes[3] = {0, 0, 0};         ///< nodes whose weighted mean is the point; ignored where the weight is 0
+    btScalar m_weights[3] = {1, 0, 0};  ///< barycentric weights [-], sum 1
+    btVector3 m_target{0, 0, 0};        ///< target of the point, in the world [m]
+    btScalar m_stiffness = 1000;        ///< k [N/m], in [0, 1e12]; practically rigid beyond some mass / step^2
+    btScalar m_damping = 0;             ///< d [N s/m], in [0, 1e12], of the point's velocity in the world
+    /// Maximum force [N], in [0, 1e12]; 0: no limit. Some 20 times the weight keeps a jumping target from distorting
+    /// the body violently.
+    btScalar m_maxForce = 0;
 
-    /// A spring at the point that a ray has hit, at rest. Nothing else is set.
+    /// A spring at the point of a ray's hit, with the target there. All other values are defaults.
     static btFemSpring at(const btFemRayHit& hit);
 
     /// True if every value is in its range; else `why` (if given) names the value, the range and the remedy.

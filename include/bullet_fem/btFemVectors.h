@@ -2,5 +2,5 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-// For Bullet programs: bullet_fem::vec3() and bullet_fem::bulletVector().
+// bullet_fem::vec3() and bullet_fem::bulletVector() convert vectors for Bullet programs.
 #include "bullet_fem/bullet_bridge/vectors.h"

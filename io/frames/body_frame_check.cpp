@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Who is blamed, and for which body.
+/// Function and body named in error messages.
 struct Blame
 {
     std::string m_caller;

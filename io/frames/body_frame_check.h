@@ -7,11 +7,11 @@
 namespace bullet_fem
 {
 
-/// Throws std::invalid_argument, in the name of `caller`, on arrays of different length, an index out of range, or a
-/// number that single precision does not hold.
+/// Throws std::invalid_argument, with `caller` in the message, on arrays of different length, an index out of range, or
+/// a number that single precision cannot represent.
 void checkFrame(const char* caller, const std::vector<BodyFrame>& bodies);
 
-/// The same for a time [s], which must be finite.
+/// Throws std::invalid_argument, with `caller` in the message, unless the time [s] is finite.
 void checkTime(const char* caller, double time);
 
 }  // namespace bullet_fem

@@ -18,7 +18,7 @@ namespace
 
 constexpr const char* kCaller = "GlbFilm";
 constexpr std::size_t kFormatsLimit = 0xFFFFFFFFu;
-// Of the text that describes it, at most: a file, a body, and an attribute of a body in a frame.
+// Maximum sizes of the describing JSON text per file, per body, and per attribute of a body in a frame [B].
 constexpr std::size_t kFileText = 2000, kBodyText = 2000, kAttributeText = 350;
 
 void checkSettings(const GlbSettings& s)
@@ -168,7 +168,7 @@ void GlbFilm::write(const std::string& path) const
     const GlbSettings& settings = m_impl->m_settings;
     double hottest = 0;
     if (m_impl->coloured()) hottest = settings.m_hottest > 0 ? settings.m_hottest : highestVonMises();
-    if (m_impl->coloured() && !(hottest > 0)) hottest = 1;  // all cold
+    if (m_impl->coloured() && !(hottest > 0)) hottest = 1;  // no stress anywhere
     writeOutputFile(path, glbBytes({m_impl->m_bodies, m_impl->m_times, settings.m_stepped, settings.m_normals,
                                     settings.m_zUp, settings.m_colours == GlbColours::peakVonMises, hottest}));
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// glTF 2.0 through tinygltf, which is known to this file alone.
+// glTF 2.0 by tinygltf, which is included in this file only.
 #include "io/frames/glb_model.h"
 
 #include <fstream>  // which tinygltf 2.7 lacks without its file functions
 
-// tinygltf is all in its header. Under a name of our own it does not meet another copy, of another version maybe, in
-// the program that links this library.
+// tinygltf is header-only. A namespace of our own prevents clashes with another copy, maybe of another version, in the
+// program.
 #define tinygltf bullet_fem_tinygltf
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
@@ -32,9 +32,9 @@ namespace
 namespace gltf = tinygltf;
 
 constexpr double kPlainColours[6][3] = {{0.55, 0.60, 0.68}, {0.80, 0.50, 0.30}, {0.40, 0.65, 0.45},
-                                        {0.70, 0.40, 0.55}, {0.85, 0.75, 0.40}, {0.35, 0.55, 0.75}};  // linear
+                                        {0.70, 0.40, 0.55}, {0.85, 0.75, 0.40}, {0.35, 0.55, 0.75}};  // linear colour
 
-/// A glTF document that grows. All numbers have four bytes, so everything stays aligned.
+/// A glTF document under construction. All numbers have four bytes, so everything is aligned.
 class Document
 {
 public:
@@ -47,7 +47,7 @@ public:
         m_model.defaultScene = 0;
     }
 
-    /// What is appended from now on belongs to a new view; `target` 0: neither vertices nor indices.
+    /// Begins a buffer view for the following append() calls; `target` 0: neither vertices nor indices.
     void beginView(int target)
     {
         gltf::BufferView view;
@@ -88,7 +88,7 @@ private:
         int m_component, m_type;
     };
 
-    // An accessor of the last view; with the least and largest of each component if `floats` are given.
+    // Adds an accessor of the last view, with minimum and maximum of each component if `floats` are given.
     template <class Value>
     int append(const std::vector<Value>& values, const Kind& kind, const float* floats)
     {
@@ -141,7 +141,7 @@ std::vector<Float3> normalsOf(const GlbBody& body, std::size_t frame)
     for (const Vec3& n : sum)
     {
         const double length = norm(n);
-        const Vec3 unit = length > 0 ? (1 / length) * n : Vec3{0, 1, 0};  // of triangles without area: any
+        const Vec3 unit = length > 0 ? (1 / length) * n : Vec3{0, 1, 0};  // arbitrary where the triangles have no area
         normals.push_back({static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z)});
     }
     return normals;
@@ -173,8 +173,8 @@ std::vector<Float3> difference(std::vector<Float3> a, const std::vector<Float3>&
     return a;
 }
 
-/// What a vertex has in a frame: of frame 0 the mesh's attributes, of others the differences from those, a morph
-/// target.
+/// Vertex attributes of a frame: of frame 0 those of the mesh, of other frames a morph target, that is the differences
+/// from frame 0.
 std::map<std::string, int> appendFrame(Document& document, const GlbModel& film, const GlbBody& body, std::size_t frame)
 {
     std::map<std::string, int> attributes;
@@ -237,8 +237,8 @@ void appendBody(Document& document, const GlbModel& film, const GlbBody& body)
     model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()) - 1);
 }
 
-/// At the time of frame k target k has weight 1 and all others 0: along straight lines between, every vertex goes
-/// straight from frame to frame.
+/// At the time of frame k, target k has weight 1 and all others 0; linear interpolation of the weights moves every
+/// vertex along a straight line between frames.
 void appendAnimation(Document& document, const GlbModel& film)
 {
     const std::size_t frames = film.m_times.size();

@@ -17,12 +17,12 @@ using Float3 = std::array<float, 3>;
 struct GlbBody
 {
     int m_id = 0;
-    std::size_t m_nodeCount = 0;                  ///< of the body
-    std::vector<int> m_node;                      ///< in the body, of every vertex
-    std::vector<Triangle> m_given;                ///< of nodes, as the first frame had them
-    std::vector<Triangle> m_triangles;            ///< of vertices
-    std::vector<std::vector<Float3>> m_position;  ///< a frame, a vertex [m]
-    std::vector<std::vector<float>> m_vonMises;   ///< a frame, a vertex [Pa]; empty without colours
+    std::size_t m_nodeCount = 0;                  ///< nodes of the body
+    std::vector<int> m_node;                      ///< node of every vertex
+    std::vector<Triangle> m_given;                ///< node triangles of the first frame
+    std::vector<Triangle> m_triangles;            ///< vertex triangles
+    std::vector<std::vector<Float3>> m_position;  ///< per frame and vertex [m]
+    std::vector<std::vector<float>> m_vonMises;   ///< per frame and vertex [Pa]; empty without colours
 };
 
 /// A film that is ready to be written.
@@ -33,8 +33,8 @@ struct GlbModel
     bool m_stepped = false;
     bool m_normals = true;
     bool m_zUp = false;
-    bool m_peakColours = false;  ///< the highest of all frames rather than each frame's
-    double m_hottest = 0;        ///< of the last colour [Pa]; 0: no colours
+    bool m_peakColours = false;  ///< maximum over all frames instead of each frame's value
+    double m_hottest = 0;        ///< stress of the top colour [Pa]; 0: no colours
 };
 
 /// The bytes of its file.

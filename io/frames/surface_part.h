@@ -8,14 +8,14 @@
 namespace bullet_fem
 {
 
-/// A body's surface without the nodes inside.
+/// The surface of a body, without interior nodes.
 struct BULLETFEM_API SurfacePart
 {
-    /// Of a body that has been checked. Throws std::invalid_argument, in the name of `caller`, if it has no triangle.
+    /// Requires a checked body. Throws std::invalid_argument, with `caller` in the message, if it has no triangle.
     SurfacePart(const char* caller, const BodyFrame& body);
 
-    std::vector<int> m_node;            ///< of every vertex, ascending
-    std::vector<Triangle> m_triangles;  ///< of vertices
+    std::vector<int> m_node;            ///< node of every vertex, ascending
+    std::vector<Triangle> m_triangles;  ///< vertex triangles
 };
 
 }  // namespace bullet_fem

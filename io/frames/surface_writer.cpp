@@ -110,7 +110,7 @@ void writePly(const std::string& path, const std::vector<BodyFrame>& bodies, dou
     const std::vector<SurfacePart> parts = partsOf("writePly", bodies);
     const bool stressed =
         std::any_of(bodies.begin(), bodies.end(), [](const BodyFrame& body) { return !body.m_nodeStress.empty(); });
-    if (!(hottest > 0)) hottest = std::max(highestVonMises(bodies), 1e-30);  // all cold, not divided by zero
+    if (!(hottest > 0)) hottest = std::max(highestVonMises(bodies), 1e-30);  // avoids division by zero without stress
     std::string bytes = plyHeader(parts, stressed);
     for (std::size_t b = 0; b < bodies.size(); ++b)
         for (const int node : parts[b].m_node) appendVertex(bytes, bodies[b], node, stressed ? hottest : 0);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// How VTK's XML formats keep numbers in a file: as text, or in base 64 with a header of 64-bit counts in front, in the
-// machine's byte order. Compressed arrays are cut into blocks, each compressed on its own, and have their header
-// encoded apart: [blocks, bytes of a block, bytes of the last one if it is shorter, compressed bytes of each].
+// Array encodings of VTK's XML formats: text, or base 64 with a header of 64-bit counts, in the machine's byte order.
+// Compressed arrays are divided into blocks, each compressed separately, and have a separately encoded header: [blocks,
+// bytes of a block, bytes of the last one if it is shorter, compressed bytes of each].
 #include "io/frames/vtu_array.h"
 
 #include <zlib.h>

@@ -11,18 +11,18 @@
 namespace bullet_fem
 {
 
-/// What a DataArray element of VTK's XML formats says of itself.
+/// Attributes of a DataArray element of VTK's XML formats.
 struct VtuArray
 {
     const char* m_name;
-    int m_components = 0;                       ///< values a tuple; 0: one, and not said
+    int m_components = 0;                       ///< values per tuple; 0: one, without the attribute
     std::vector<const char*> m_componentNames;  ///< may be empty
-    bool m_exact = false;                       ///< text: as many digits as give back the same bits
+    bool m_exact = false;                       ///< text with enough digits for an exact round trip
 };
 
 /// Appends a DataArray of numbers to `xml`. Binary arrays are of single precision, text has nine digits of double.
 void appendArray(std::string& xml, VtuEncoding encoding, const VtuArray& array, const std::vector<double>& values);
-/// The same for whole numbers.
+/// Appends a DataArray of integers to `xml`.
 void appendArray(std::string& xml, VtuEncoding encoding, const VtuArray& array,
                  const std::vector<std::int32_t>& values);
 void appendArray(std::string& xml, VtuEncoding encoding, const VtuArray& array,

@@ -65,7 +65,7 @@ void appendNumbers(std::vector<double>& numbers, double value)
     numbers.push_back(value);
 }
 
-/// One array of the file: a field of all bodies, zero where a body has none; empty if none has it.
+/// One array of the file: a field of all bodies, zero for a body without it; empty if no body has it.
 template <class Value, class Count>
 std::vector<double> joined(const std::vector<BodyFrame>& bodies, std::vector<Value> BodyFrame::*field,
                            const Count& count)
@@ -92,7 +92,7 @@ std::size_t cellCount(const BodyFrame& body)
     return showsTets(body) ? body.m_tets.size() : body.m_triangles.size();
 }
 
-/// 0 where a body has none; empty if none has any.
+/// Labels of all cells, 0 for a body without labels; empty if no body has them.
 std::vector<std::int32_t> regionsOf(const std::vector<BodyFrame>& bodies)
 {
     std::vector<std::int32_t> regions;

@@ -51,7 +51,7 @@ VtuSeries::VtuSeries(std::string folder, std::string name, VtuEncoding encoding)
     if (!std::filesystem::is_directory(m_folder))
         throw std::runtime_error("cannot make the folder '" + m_folder +
                                  "': " + (error ? error.message() : std::string("a file has this name")));
-    writePvd(pvdPath(), m_name, m_times);  // finds out now whether files can be written here
+    writePvd(pvdPath(), m_name, m_times);  // fails early if files cannot be written here
 }
 
 std::string VtuSeries::pvdPath() const

@@ -15,8 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Lets Assimp open one file only: a surface needs no materials, and a file from elsewhere shall not choose what we
-/// open.
+/// Lets Assimp open one file only: a surface needs no materials, and an untrusted file must not choose further files.
 class OneFileSystem : public Assimp::DefaultIOSystem
 {
 public:
@@ -31,7 +30,7 @@ private:
     std::string m_path;
 };
 
-/// Takes away all importers but OBJ and STL: Assimp guesses by content when the ending's own importer gives up.
+/// Removes all importers but OBJ and STL: Assimp tries others by content when the extension's own importer fails.
 void keepObjAndStl(Assimp::Importer& importer)
 {
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
@@ -51,7 +50,7 @@ PolygonMesh readWithAssimp(const std::string& path)
     keepObjAndStl(importer);
     importer.SetIOHandler(new OneFileSystem(path));  // the importer owns it
 
-    // No post-processing: these formats have no transforms, and the steps assert on what a broken file can hold.
+    // No post-processing: these formats have no transforms, and the steps assert on invalid files.
     const aiScene* scene = importer.ReadFile(path, 0);
     if (!scene) throw std::runtime_error(importer.GetErrorString());
 

@@ -13,13 +13,13 @@ namespace bullet_fem
 namespace
 {
 
-/// The lines of a text that hold anything but a comment.
+/// The lines of a text, without comments and blank lines.
 class Lines
 {
 public:
     explicit Lines(std::string_view text) : m_rest(text) {}
 
-    /// The next such line without its comment; throws when there is none, saying what was `wanted`.
+    /// The next line without its comment; throws at the end, naming what was `wanted`.
     std::string_view next(const std::string& wanted)
     {
         while (!m_rest.empty())
@@ -40,7 +40,7 @@ private:
     int m_number = 0;
 };
 
-// The word OFF may be left out, as geomview allows it: then the counts come first.
+// The word OFF is optional, as in geomview: the counts may come first.
 void readHeader(Lines& lines, std::int64_t& vertexCount, std::int64_t& faceCount)
 {
     std::string_view line = lines.next("the header OFF");
@@ -66,7 +66,7 @@ void readHeader(Lines& lines, std::int64_t& vertexCount, std::int64_t& faceCount
 
 Vec3 readPosition(std::string_view line)
 {
-    Vec3 x;  // what follows on the line is a normal, a colour or a texture coordinate
+    Vec3 x;  // further values on the line are a normal, a colour or a texture coordinate
     for (int i = 0; i < 3; ++i) x[i] = parseNumber<double>(takeWord(line), "a coordinate");
     return x;
 }

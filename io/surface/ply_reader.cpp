@@ -87,8 +87,8 @@ Property parseProperty(std::string_view line)
     return property;
 }
 
-/// Takes the header, with the line break after end_header, off the front of `bytes`. Exporters write lines of their own
-/// before the first element, and forget that they are comments: these are passed over.
+/// Removes the header, including the line break after end_header, from the front of `bytes`. Some exporters write lines
+/// of their own before the first element without marking them as comments: these are skipped.
 Header takeHeader(std::string_view& bytes)
 {
     Header header;
@@ -117,7 +117,7 @@ Header takeHeader(std::string_view& bytes)
     }
 }
 
-/// Numbers of the body, one after the other.
+/// Reads the numbers of the body in sequence.
 class PlyBody
 {
 public:
@@ -133,7 +133,7 @@ public:
         }
         return nextBinary(type);
     }
-    /// A count or an index: a whole number in [0, 2^31).
+    /// A count or an index: an integer in [0, 2^31).
     int nextIndex(NumberType type)
     {
         const double value = next(type);
@@ -157,13 +157,13 @@ private:
     Encoding m_encoding;
 };
 
-/// Where a colour's bits stand in 0xRRGGBB; -1 if that is no colour.
+/// Shift of a colour component in 0xRRGGBB; -1 if the property is no colour.
 int colourShift(const std::string& name)
 {
     return name == "red" ? 16 : name == "green" ? 8 : name == "blue" ? 0 : -1;
 }
 
-/// In [0, 255]. Floating colours are in [0, 1]; a number that is none counts as 0.
+/// A colour component in [0, 255]. Floating-point components are in [0, 1]; NaN counts as 0.
 int colourOf(double value, NumberType type)
 {
     if (type.kind == NumberType::floating) value = std::round(255 * value);
@@ -177,7 +177,7 @@ bool isColoured(const Element& element)
     return colours == 3;
 }
 
-/// One vertex, face or other thing; what is not a position, a colour or a corner is read and forgotten.
+/// Reads one item of an element; properties other than position, colour and corners are dropped.
 void readItem(PlyBody& body, const Element& element, PolygonMesh& mesh)
 {
     const bool isVertex = element.name == "vertex", isFace = element.name == "face";
@@ -231,7 +231,7 @@ PolygonMesh readPly(std::string_view bytes)
     for (const Element& element : header.elements)
     {
         if (element.name == "vertex") checkVertexProperties(element);
-        if (element.properties.empty()) continue;  // nothing to read, whatever the count
+        if (element.properties.empty()) continue;  // no data, whatever the count
         for (std::int64_t i = 0; i < element.count; ++i)
         {
             try
@@ -246,7 +246,7 @@ PolygonMesh readPly(std::string_view bytes)
         }
     }
     if (mesh.m_labels.size() != mesh.m_positions.size())
-        mesh.m_labels.clear();  // vertices in two elements, one painted
+        mesh.m_labels.clear();  // several vertex elements, not all painted
     return mesh;
 }
 

@@ -12,19 +12,20 @@
 namespace bullet_fem
 {
 
-/// What a file says, before triangulation and welding: positions and polygons. Indices may still be out of range.
+/// The contents of a file before triangulation and merging of vertices: positions and polygons. Indices may be out of
+/// range.
 struct PolygonMesh
 {
     std::vector<Vec3> m_positions;
-    std::vector<int> m_labels;           ///< per position, how it is painted; empty: not at all
-    std::vector<int> m_corners;          ///< vertex indices of all polygons, one polygon after the other
+    std::vector<int> m_labels;           ///< per position, label of its colour; empty: no labels
+    std::vector<int> m_corners;          ///< vertex indices of all polygons, concatenated
     std::vector<std::size_t> m_faceEnd;  ///< one past the last corner of every polygon in m_corners
 
     void closeFace() { m_faceEnd.push_back(m_corners.size()); }
 };
 
-/// Each reader throws an exception whose text is the cause alone; the caller puts the file's name before it.
-/// Memory grows with what was read, never with a count that a header claims.
+/// Each reader throws an exception whose text is the cause alone; the caller prepends the file's name. Memory is
+/// bounded by the data read, not by counts in a header.
 
 /// Reads the text of an OFF file: OFF, COFF, NOFF and STOFF in text form; comments, blank lines and colours are
 /// skipped.

@@ -71,7 +71,7 @@ struct PositionEqual
     bool operator()(const Vec3& a, const Vec3& b) const { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
-/// For every vertex the first one at the same place. Exact: a tolerance would have to guess the size of details.
+/// For every vertex the first one of equal position. Exact, because a tolerance would depend on the size of details.
 std::vector<int> firstAtSamePlace(const std::vector<Vec3>& positions)
 {
     std::unordered_map<Vec3, int, PositionHash, PositionEqual> seen;
@@ -100,7 +100,7 @@ std::vector<Triangle> weldedTriangles(const PolygonMesh& mesh)
     return kept;
 }
 
-/// Whether labels tell regions apart: what is of one colour has none, and a photograph has too many.
+/// Whether labels define regions: a single colour defines none, and a photographic texture has too many.
 bool areRegions(const std::vector<int>& labels)
 {
     std::set<int> different;
@@ -109,7 +109,7 @@ bool areRegions(const std::vector<int>& labels)
     return different.size() > 1;
 }
 
-/// The vertices that the triangles use, in the file's order, and the triangles in their numbers.
+/// Removes unused vertices, keeps their order, and renumbers the triangles.
 SurfaceMesh compact(const PolygonMesh& mesh, std::vector<Triangle> triangles, double scale)
 {
     const std::vector<Vec3>& positions = mesh.m_positions;

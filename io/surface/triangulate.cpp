@@ -9,7 +9,7 @@ namespace
 
 constexpr std::size_t kMaxCornersForEars = 256;
 
-/// Twice the polygon's area vector (Newell); about its first corner, so that a place far away costs no digits.
+/// Twice the polygon's area vector (Newell), relative to its first corner, to avoid cancellation far from the origin.
 Vec3 areaVector(const std::vector<Vec3>& positions, const std::vector<int>& corners)
 {
     Vec3 area;
@@ -30,7 +30,7 @@ bool isEar(const std::vector<Vec3>& positions, const std::vector<int>& corners, 
     for (const int corner : corners)
     {
         const Vec3& x = positions[corner];
-        // Corners at the same place as the ear's own are no obstacle: a polygon with a hole visits a bridge twice.
+        // Corners that coincide with the ear's own do not block it: a polygon with a hole visits a bridge twice.
         if (equal(x, a) || equal(x, b) || equal(x, c)) continue;
         if (leftOf(a, b, x) >= 0 && leftOf(b, c, x) >= 0 && leftOf(c, a, x) >= 0) return false;
     }

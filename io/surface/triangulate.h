@@ -9,9 +9,10 @@
 namespace bullet_fem
 {
 
-/// Appends the n - 2 triangles of a polygon given by its `corners` (indices into `positions`), by cutting ears; keeps
-/// the polygon's sense. Fewer than three corners give none. Where no ear is left (a polygon that crosses itself), and
-/// above 256 corners (cutting costs up to n^3), the rest becomes a fan: the surface stays closed and keeps its volume.
+/// Appends the n - 2 triangles of a polygon given by its `corners` (indices into `positions`), by ear clipping; keeps
+/// the polygon's orientation. Fewer than three corners give none. If no ear is left (a polygon that crosses itself),
+/// and above 256 corners (clipping costs up to n^3), the remaining polygon becomes a fan: the surface stays closed and
+/// keeps its volume.
 void triangulatePolygon(const std::vector<Vec3>& positions, std::vector<int> corners, std::vector<Triangle>& triangles);
 
 }  // namespace bullet_fem

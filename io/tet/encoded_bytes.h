@@ -9,17 +9,17 @@
 namespace bullet_fem
 {
 
-/// Bytes that stand as they are or in base64, taken from the front. Errors are std::runtime_error.
+/// A sequence of raw or base64 bytes, consumed from the front. Errors are std::runtime_error.
 class EncodedBytes
 {
 public:
     EncodedBytes(std::string_view text, bool base64) : m_rest(text), m_base64(base64) {}
 
-    /// The next bytes; throws if there are fewer. Base64 may be padded in its midst, as behind a header that was
-    /// encoded by itself.
+    /// The next bytes; throws if there are fewer. Base64 may contain padding in its middle, as after a separately
+    /// encoded header.
     std::string take(std::size_t count);
 
-    /// What can be taken, at most.
+    /// Upper bound of the remaining bytes.
     std::size_t most() const { return m_pending.size() + (m_base64 ? m_rest.size() / 4 * 3 : m_rest.size()); }
 
 private:
@@ -27,7 +27,7 @@ private:
 
     std::string_view m_rest;
     bool m_base64;
-    std::string m_pending;  // decoded, and not yet taken
+    std::string m_pending;  // decoded, not yet consumed
 };
 
 }  // namespace bullet_fem

@@ -13,11 +13,11 @@ namespace bullet_fem
 struct GmshCell
 {
     CellKind kind;
-    int nodes;         ///< of each element; 0 if refused
+    int nodes;         ///< nodes of an element; 0 if refused
     std::string name;  ///< with its article, if refused
 };
 
-/// The type of a number in the element sections, by Gmsh's list (GmshDefines.h).
+/// The element type of a number in Gmsh's list (GmshDefines.h).
 GmshCell gmshCell(int type);
 
 }  // namespace bullet_fem

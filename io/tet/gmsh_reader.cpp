@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-/// The byte order in which four bytes are a 1.
+/// The byte order in which these four bytes are the integer 1.
 ByteOrder readByteOrder(MeshScanner& scanner)
 {
     if (scanner.left() >= 4)
@@ -28,7 +28,7 @@ ByteOrder readByteOrder(MeshScanner& scanner)
                  "gmsh OLD.msh -save -format msh41 -o NEW.msh");
 }
 
-/// The content of $MeshFormat; returns the version's first digit.
+/// Reads $MeshFormat; returns the version's first digit.
 int readFormat(GmshFile& file)
 {
     MeshScanner& scanner = file.scanner;
@@ -58,7 +58,7 @@ std::string endOf(const std::string& section, int version)
     return (version == 1 ? "$END" : "$End") + section;
 }
 
-/// Passes the closing line of a section that was read.
+/// Skips the closing line of a section that was read.
 void readEnd(MeshScanner& scanner, const std::string& end)
 {
     const std::string_view word = scanner.word(end.c_str());
@@ -88,7 +88,7 @@ void readElements(GmshFile& file, int version)
     version == 1 ? readGmshElements1(file) : version == 2 ? readGmshElements2(file) : readGmshElements4(file);
 }
 
-/// Version 1 has no $MeshFormat: a file that begins with nodes or elements is one.
+/// Version 1 has no $MeshFormat: its files begin with nodes or elements.
 int versionWithoutFormat(GmshFile& file, std::string_view word)
 {
     if (word != "$NOD" && word != "$NOE" && word != "$ELM") return 0;
@@ -97,7 +97,7 @@ int versionWithoutFormat(GmshFile& file, std::string_view word)
     return 1;
 }
 
-// The section itself is passed with those that are not read: a mesh needs no groups.
+// Skips the section: a mesh needs no group names.
 void findGroups(GmshFile& file)
 {
     const MeshScanner before = file.scanner;

@@ -13,7 +13,7 @@ namespace
 constexpr const char* kNodeTag = "a node tag";
 constexpr const char* kElementType = "an element type";
 
-/// The type of a number; fails on cells that are not read.
+/// The element type of a number; fails on refused cells.
 GmshCell cellOf(int type, const MeshScanner& scanner)
 {
     const GmshCell cell = gmshCell(type);
@@ -87,7 +87,7 @@ void readBinaryElements2(GmshFile& file, std::uint64_t count)
     }
 }
 
-/// The four numbers that open a section of version 4.1, of which the last two are the least and the largest tag.
+/// The four numbers at the beginning of a section of version 4.1; the last two are the minimum and the maximum tag.
 struct BlockHeader
 {
     std::uint64_t blocks, items;
@@ -103,7 +103,7 @@ BlockHeader readBlockHeader(GmshFile& file, const char* what)
     return header;
 }
 
-/// The number of items in a block, of those that the header declares and that are left.
+/// The number of items in a block, at most those that remain of the declared total.
 std::uint64_t readBlockCount(GmshFile& file, std::uint64_t& left, const char* what)
 {
     const auto count = file.scanner.get<std::uint64_t>(what, file.sizeBytes);

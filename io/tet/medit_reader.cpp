@@ -16,7 +16,7 @@ bool beginsWithLetter(std::string_view word)
     return !word.empty() && ((word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z'));
 }
 
-/// Passes what belongs to a keyword that is not read: all up to the next one.
+/// Skips the contents of an unread keyword, up to the next keyword.
 void skipToKeyword(MeshScanner& text)
 {
     while (!text.atEnd() && !beginsWithLetter(text.peekWord())) text.word("a number");
@@ -41,7 +41,7 @@ void readVertices(MeshScanner& text, TetMeshFile& mesh)
     {
         Vec3 x;
         for (int k = 0; k < 3; ++k) x[k] = text.text<double>("a coordinate");
-        text.text<double>("a reference");  // an integer, but some write it with a point
+        text.text<double>("a reference");  // an integer, which some programs write with a decimal point
         mesh.m_positions.push_back(x);
         mesh.m_nodeNumbers.push_back(i + 1);
     }
@@ -67,7 +67,7 @@ void readTetrahedra(MeshScanner& text, TetMeshFile& mesh)
     }
 }
 
-/// What a keyword's cells are, of any order; none for other keywords, such as RequiredTriangles, Ridges and Normals.
+/// Kind of a keyword's cells, of any order; none for other keywords, such as RequiredTriangles, Ridges and Normals.
 std::optional<CellKind> kindOf(std::string_view keyword)
 {
     const auto begins = [&](std::string_view name) { return keyword.substr(0, name.size()) == name; };
@@ -78,7 +78,7 @@ std::optional<CellKind> kindOf(std::string_view keyword)
     return {};
 }
 
-/// Another keyword of cells, or one that is not known.
+/// Skips another keyword of cells, or an unknown one.
 void skipSection(MeshScanner& text, std::string_view keyword, TetMeshFile& mesh)
 {
     const std::optional<CellKind> kind = kindOf(keyword);
@@ -100,7 +100,7 @@ TetMeshFile readMedit(std::string_view bytes)
     TetMeshFile mesh;
     MeshScanner text(bytes, true);
     readHeader(text, mesh);
-    std::vector<MeshScanner> early;  // tetrahedra that stand before the vertices are read at the end
+    std::vector<MeshScanner> early;  // tetrahedra before the vertices are read at the end
     bool ended = false;
     while (!ended && !text.atEnd())
     {

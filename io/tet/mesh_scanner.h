@@ -13,15 +13,15 @@
 namespace bullet_fem
 {
 
-/// The bytes of a mesh file from front to back, in turns as text and as binary numbers. Every error is a
-/// std::runtime_error that begins with the line, or with the byte once setBinary was called. Memory is not its own.
+/// Sequential reader of a mesh file's bytes, alternately as text and as binary numbers. Every error is a
+/// std::runtime_error that begins with the line, or with the byte after setBinary. Does not own its memory.
 class MeshScanner
 {
 public:
-    /// Text. With `comments` whatever follows a # up to the end of its line is not there.
+    /// Begins as text. With `comments`, everything from a # to the end of its line is ignored.
     explicit MeshScanner(std::string_view bytes, bool comments = false) : m_bytes(bytes), m_comments(comments) {}
 
-    /// From here on get() reads binary numbers of this byte order.
+    /// Makes get() read binary numbers of this byte order.
     void setBinary(ByteOrder order)
     {
         m_binary = true;
@@ -29,12 +29,12 @@ public:
     }
     bool isBinary() const { return m_binary; }
 
-    bool atEnd();  ///< Nothing but white space is left.
+    bool atEnd();  ///< True if only white space is left.
     std::string_view
     restOfLine();  ///< Up to the next line break, which is passed; neither it nor a \r before it is kept.
     std::string_view word(const char* what);  ///< The next word, over line breaks; fails at the end.
-    std::string_view peekWord();              ///< The same without passing it; empty at the end.
-    bool skipPast(std::string_view mark);     ///< Passes the next such text; false if there is none.
+    std::string_view peekWord();              ///< The next word, without advancing; empty at the end.
+    bool skipPast(std::string_view mark);  ///< Advances beyond the next occurrence of `mark`; false if there is none.
     void skipBytes(std::uint64_t count, const char* what);
 
     /// The next word as a number.
@@ -44,7 +44,7 @@ public:
         return parse<Number>(word(what), what);
     }
 
-    /// A word of what was read last as a number.
+    /// A word of the last item as a number.
     template <class Number>
     Number parse(std::string_view word, const char* what) const
     {
@@ -78,16 +78,16 @@ public:
             return static_cast<Number>(bits(bytes, what));
     }
 
-    /// Fails unless the rest can hold `count` things of `numbers` numbers, which are of `bytesEach` bytes in binary
-    /// files and of a digit and a space, at least, in text.
+    /// Fails unless the rest can hold `count` items of `numbers` numbers, each with `bytesEach` bytes in binary files,
+    /// and at least a digit and a space in text.
     void need(std::uint64_t count, std::uint64_t numbers, std::uint64_t bytesEach, const char* what);
 
     std::size_t left() const { return m_bytes.size() - m_next; }
     const char* data() const { return m_bytes.data() + m_next; }
 
-    /// Throws, with the line or byte of what was read last.
+    /// Throws, with the line or byte of the last item.
     [[noreturn]] void fail(const std::string& cause) const;
-    /// "line 7", or "byte 100" in binary files, of what was read last.
+    /// Position of the last item: "line 7", or "byte 100" in binary files.
     std::string place() const;
 
 private:
@@ -96,7 +96,7 @@ private:
 
     std::string_view m_bytes;
     std::size_t m_next = 0;
-    std::size_t m_item = 0;  // where what was read last begins
+    std::size_t m_item = 0;  // start of the last item
     bool m_comments = false;
     bool m_binary = false;
     ByteOrder m_order = ByteOrder::little;

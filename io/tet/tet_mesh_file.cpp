@@ -27,7 +27,7 @@ void checkScale(double scale)
 
 constexpr const char* kEndings = ".msh, .node and .ele, .vtk, .vtu or .mesh";
 
-/// The format that the first bytes tell; `stated` where they tell none.
+/// The format recognised by the first bytes; `stated` if they are ambiguous.
 TetMeshFormat formatOf(std::string_view bytes, TetMeshFormat stated)
 {
     struct Beginning
@@ -77,7 +77,7 @@ TetMeshFile readFormat(std::string_view bytes, TetMeshFormat format)
     throw std::runtime_error("the format is not known");
 }
 
-/// Leaves out nodes that no tetrahedron uses, and scales the others; drops regions that tell nothing.
+/// Removes nodes that no tetrahedron uses, and scales the others; drops regions if all are 0.
 void finish(TetMeshFile& mesh, double scale)
 {
     const auto isZero = [](int region) { return region == 0; };
@@ -112,7 +112,7 @@ void finish(TetMeshFile& mesh, double scale)
     mesh.m_nodeNumbers.resize(used);
 }
 
-/// Runs `read` on the bytes of a file, and puts its name before whatever is thrown.
+/// Runs `read` on the bytes of a file, and prepends its name to exceptions.
 template <class Read>
 auto readNamed(const std::string& path, Read read)
 {
@@ -127,7 +127,7 @@ auto readNamed(const std::string& path, Read read)
     }
 }
 
-/// A .node and an .ele file beside each other; `path` is the one or the other.
+/// Reads a .node and an .ele file in one folder; `path` is either of them.
 TetMeshFile readTetGenFiles(const std::string& path, double scale)
 {
     const bool isNode = lowerCaseEnding(path) == ".node";
@@ -171,11 +171,12 @@ TetMeshFile readTetMeshFile(const std::string& path, double scale)
         const char* ending;
         TetMeshFormat format;
     };
-    constexpr Ending endings[] = {{".msh", TetMeshFormat::gmsh},
-                                  {".vtk", TetMeshFormat::vtk},
-                                  {".vtu", TetMeshFormat::vtu},
-                                  {".mesh", TetMeshFormat::medit},
-                                  {".meshb", TetMeshFormat::medit}};  // says that binary ones cannot be read
+    constexpr Ending endings[] = {
+        {".msh", TetMeshFormat::gmsh},
+        {".vtk", TetMeshFormat::vtk},
+        {".vtu", TetMeshFormat::vtu},
+        {".mesh", TetMeshFormat::medit},
+        {".meshb", TetMeshFormat::medit}};  // gives a message that binary files are not supported
     const std::string ending = lowerCaseEnding(path);
     if (ending == ".node" || ending == ".ele") return readTetGenFiles(path, scale);
     for (const Ending& known : endings)

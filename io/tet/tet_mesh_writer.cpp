@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Text of numbers with blanks between them; as few digits as give back the same bits.
+/// Numbers as text with blanks between them, with the fewest digits for an exact round trip.
 class NumberLines
 {
 public:
@@ -46,7 +46,7 @@ private:
     std::string m_text;
 };
 
-/// A mesh, and the labels of its elements or none.
+/// A mesh with optional labels of its elements.
 struct LabelledMesh
 {
     const TetMesh& m_mesh;
@@ -115,7 +115,7 @@ std::string meditText(const LabelledMesh& labelled)
     return out.text();
 }
 
-// Counted from 0: Bullet's CreateFromTetGenData takes the numbers for places in its arrays.
+// Counted from 0: Bullet's CreateFromTetGenData uses the numbers as array indices.
 std::string nodeText(const TetMesh& mesh)
 {
     NumberLines out;
@@ -144,7 +144,7 @@ std::string withEnding(const std::string& path, const char* ending)
     return std::filesystem::path(path).replace_extension(ending).string();
 }
 
-// One is nothing without the other.
+// Neither file is useful without the other.
 void writeTetGen(const std::string& path, const LabelledMesh& labelled)
 {
     OutputFile nodes(withEnding(path, ".node")), elements(withEnding(path, ".ele"));

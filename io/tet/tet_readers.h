@@ -10,17 +10,17 @@
 namespace bullet_fem
 {
 
-// Each reader throws std::runtime_error with place and cause; the caller puts the file's name before it. All nodes of
-// the file are still there, and positions may not be finite.
+// Each reader throws std::runtime_error with position and cause; the caller prepends the file's name. All nodes of the
+// file are kept, and positions may not be finite.
 
 TetMeshFile readGmsh(std::string_view bytes);
 TetMeshFile readVtk(std::string_view bytes);
 TetMeshFile readVtu(std::string_view bytes);
 TetMeshFile readMedit(std::string_view bytes);
 
-/// The text of a .node file, comments excepted: sets positions and numbers.
+/// Reads the text of a .node file, without comments: sets positions and numbers.
 void readTetGenNodes(MeshScanner& text, TetMeshFile& mesh);
-/// The text of an .ele file, for the nodes that are there already.
+/// Reads the text of an .ele file, after the nodes.
 void readTetGenTets(MeshScanner& text, TetMeshFile& mesh);
 
 }  // namespace bullet_fem

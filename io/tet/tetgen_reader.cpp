@@ -10,21 +10,21 @@ namespace bullet_fem
 namespace
 {
 
-/// The next line that holds anything: a thing with what follows it, as attributes and markers, which are ignored.
+/// The next line that is not blank: an item with attributes and markers, which are ignored.
 std::string_view nextLine(MeshScanner& text, const char* what)
 {
     if (text.peekWord().empty()) text.word(what);
     return text.restOfLine();
 }
 
-/// The next number of a line that was read last.
+/// The next number of the last line.
 template <class Number>
 Number take(const MeshScanner& text, std::string_view& line, const char* what)
 {
     return text.parse<Number>(takeWord(line), what);
 }
 
-/// The next number of a header, which may end before it.
+/// The next number of a header, whose last numbers are optional.
 std::uint64_t takeOr(const MeshScanner& text, std::string_view& line, std::uint64_t otherwise)
 {
     const std::string_view word = takeWord(line);

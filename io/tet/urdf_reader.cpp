@@ -60,7 +60,7 @@ double numberIn(const XMLElement& element, const char* attribute, const Range& r
     return value;
 }
 
-/// Sets a value from `<name value="..."/>` where that is there.
+/// Sets a value from `<name value="..."/>` if that exists.
 void readValue(const XMLElement& parent, const char* name, const Range& range, double& value)
 {
     if (const XMLElement* element = parent.FirstChildElement(name)) value = numberIn(*element, "value", range);
@@ -75,7 +75,7 @@ double massOf(const XMLElement& block)
     return numberIn(*mass, "value", kPositive);
 }
 
-/// Adds the moduli of one law; damping is weighed by mu.
+/// Adds the moduli of one law; damping is averaged with weights mu.
 void addLaw(const XMLElement& law, UrdfDeformable& result)
 {
     const double mu = numberIn(law, "mu", kPositive), lambda = numberIn(law, "lambda", kNotNegative);

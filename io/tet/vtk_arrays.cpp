@@ -27,7 +27,7 @@ std::vector<Number> readVtkNumbers(VtkFile& file, NumberType type, std::uint64_t
     return numbers;
 }
 
-/// Text in binary files: each behind a length, whose first two bits tell how many bytes that has.
+/// Strings in binary files: each after a length, whose first two bits give the size of that length.
 void skipBinaryStrings(MeshScanner& scanner, std::uint64_t count)
 {
     for (std::uint64_t i = 0; i < count; ++i)
@@ -40,7 +40,7 @@ void skipBinaryStrings(MeshScanner& scanner, std::uint64_t count)
     }
 }
 
-/// `count` values of an array that is not needed.
+/// Skips `count` values of an array.
 void skipValues(MeshScanner& scanner, const std::string& type, std::uint64_t count)
 {
     const bool strings = type == "STRING" || type == "UTF8_STRING";
@@ -63,7 +63,7 @@ void skipValues(MeshScanner& scanner, const std::string& type, std::uint64_t cou
         }
 }
 
-/// The values of an array, kept if they are the cells' regions.
+/// Reads the values of an array, and keeps them if they are the cells' regions.
 void readDataArray(VtkFile& file, const std::string& name, const std::string& type, std::uint64_t components,
                    std::uint64_t tuples)
 {

@@ -72,7 +72,7 @@ constexpr VtkType kTypes[] = {{0, CellKind::empty, ""},
                               {80, CellKind::refused, "a Bezier wedge"},
                               {81, CellKind::refused, "a Bezier pyramid"}};
 
-/// What becomes of cells of this type; throws, naming the type, if they are refused.
+/// Treatment of cells of this type; throws, naming the type, if they are refused.
 CellKind kindOf(std::int64_t type, std::size_t cell)
 {
     for (const VtkType& known : kTypes)

@@ -13,11 +13,11 @@ namespace bullet_fem
 
 constexpr std::int64_t kVtkTetrahedron = 10;  ///< VTK_TETRA, by vtkCellType.h
 
-/// The cells of an unstructured grid, as both of VTK's formats have them.
+/// The cells of an unstructured grid, in either of VTK's formats.
 struct VtkCells
 {
     std::vector<std::int64_t> m_ends;          ///< one past the last corner of every cell
-    std::vector<std::int64_t> m_connectivity;  ///< corners of all cells, indices of points
+    std::vector<std::int64_t> m_connectivity;  ///< corners of all cells, as point indices
     std::vector<std::int64_t> m_types;         ///< VTK's cell types
 };
 
@@ -25,12 +25,12 @@ struct VtkCells
 /// Throws std::runtime_error, naming the cell, on types that are refused and on sizes and indices out of range.
 void appendVtkCells(TetMeshFile& mesh, const VtkCells& cells, std::size_t firstPoint);
 
-/// Whether a cells' array of this name tells regions: region, regions, material, MaterialIds, CellEntityIds,
+/// Whether a cell array of this name holds regions: region, regions, material, MaterialIds, CellEntityIds,
 /// gmsh:physical, medit:ref or attribute, in any case.
 bool isVtkRegionName(std::string name);
 
-/// Notes the regions of the tetrahedra that were appended last, of an array with a number for each of their cells.
-/// Arrays of another length are not taken.
+/// Stores the regions of the tetrahedra that were appended last, from an array with one number per cell. Arrays of
+/// another length are ignored.
 void noteVtkRegions(TetMeshFile& mesh, const VtkCells& cells, const std::vector<double>& regions);
 
 }  // namespace bullet_fem

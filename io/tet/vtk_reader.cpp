@@ -18,7 +18,7 @@ void readHeader(VtkFile& file)
     std::string_view rest = scanner.restOfLine();
     const bool marked = rest.substr(0, 1) == "#";
     rest.remove_prefix(marked ? 1 : 0);
-    if (rest.substr(0, 1) == " ") rest.remove_prefix(1);  // files of Bullet's own come without the blank
+    if (rest.substr(0, 1) == " ") rest.remove_prefix(1);  // Bullet's own files omit the blank
     if (!marked || vtkKeyword(rest.substr(0, magic.size())) != vtkKeyword(magic))
         scanner.fail("a VTK file begins with '# vtk DataFile Version'");
     rest.remove_prefix(magic.size());
@@ -51,7 +51,7 @@ void readPoints(VtkFile& file)
     }
 }
 
-/// Whether the section goes on in a text file: with a number, where the next one begins with a letter.
+/// Whether the section continues in a text file: with a number, because a section begins with a letter.
 bool atNumber(MeshScanner& scanner)
 {
     const std::string_view word = scanner.peekWord();
@@ -65,8 +65,8 @@ std::int64_t readCellNumber(MeshScanner& scanner)
     return integerFromBits(scanner.bits(4, what), {NumberType::signedInteger, 4});
 }
 
-/// CELLS before version 5: for each cell the number of its corners, then these. How many numbers that makes is stated,
-/// too, but not always rightly; cells are counted.
+/// CELLS before version 5: for each cell the number of its corners, then these. The declared total of numbers is not
+/// always correct; cells are counted instead.
 void readCellRows(VtkFile& file, std::uint64_t cellCount, std::int64_t declared)
 {
     MeshScanner& scanner = file.scanner;
@@ -124,7 +124,7 @@ void readCells(VtkFile& file)
         readCellRows(file, count, size.empty() ? 0 : scanner.parse<std::int64_t>(size, "a number of integers"));
 }
 
-// Of a text all types up to the next section, whatever their number is said to be.
+// In text files reads all types up to the next section, whatever their declared number.
 void readCellTypes(VtkFile& file)
 {
     MeshScanner& scanner = file.scanner;
@@ -141,7 +141,7 @@ void readCellTypes(VtkFile& file)
         while (atNumber(scanner)) file.cells.m_types.push_back(scanner.text<std::int64_t>("a cell type"));
 }
 
-/// Cells that are not all given a type are tetrahedra if they have four corners and nothing says otherwise.
+/// If the types are incomplete, cells with four corners are tetrahedra unless a type says otherwise.
 void settleCellTypes(VtkFile& file)
 {
     VtkCells& cells = file.cells;
@@ -164,7 +164,7 @@ void settleCellTypes(VtkFile& file)
     notes.push_back(told + "; all cells have four corners and are taken for tetrahedra");
 }
 
-/// A section of the grid; returns false where its points' and cells' own arrays begin, which end the mesh.
+/// Reads a section of the grid; returns false at the beginning of point or cell data, which ends the mesh.
 bool readSection(VtkFile& file)
 {
     const std::string_view word = file.scanner.word("a section");
@@ -218,7 +218,7 @@ TetMeshFile readVtk(std::string_view bytes)
     {
         if (!file.data.empty()) findVtkRegions(file);
     }
-    catch (const std::runtime_error&)  // a mesh needs no regions: what follows it was never looked at
+    catch (const std::runtime_error&)  // a mesh needs no regions: errors after it are ignored
     {
     }
     noteVtkRegions(file.mesh, file.cells, file.regions);

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr std::uint64_t kMaxInflation = 1032;  // of deflate, bytes from a byte
+constexpr std::uint64_t kMaxInflation = 1032;  // maximum expansion by deflate, bytes per byte
 
 NumberType parseVtuType(const std::string& name)
 {
@@ -42,7 +42,7 @@ std::uint64_t takeCount(EncodedBytes& bytes, const VtuArrayEncoding& encoding)
     return readBits(bytes.take(size).data(), size, encoding.order);
 }
 
-/// Counts numbers that are about to be decoded.
+/// Counts numbers before they are decoded.
 void spend(VtuArrayEncoding& encoding, std::uint64_t numbers)
 {
     if (numbers > encoding.numbersLeft)
@@ -50,13 +50,13 @@ void spend(VtuArrayEncoding& encoding, std::uint64_t numbers)
     encoding.numbersLeft -= numbers;
 }
 
-/// Appends a compressed block that should have `size` bytes when it is no longer.
+/// Decompresses a block that should have `size` bytes, and appends it.
 void inflateBlock(const std::string& block, std::uint64_t size, std::string& out)
 {
     if (size > kMaxInflation * (block.size() + 1))
         throw std::runtime_error(message("a zlib block of ", block.size(), " bytes cannot hold ", size));
     const std::size_t before = out.size();
-    out.resize(before + static_cast<std::size_t>(size) + 1);  // one more, so that too much is noticed
+    out.resize(before + static_cast<std::size_t>(size) + 1);  // one more, to detect excess data
     auto inflated = static_cast<uLongf>(size + 1);
     const int status = uncompress(reinterpret_cast<Bytef*>(&out[before]), &inflated,
                                   reinterpret_cast<const Bytef*>(block.data()), static_cast<uLong>(block.size()));
@@ -65,8 +65,8 @@ void inflateBlock(const std::string& block, std::uint64_t size, std::string& out
     out.resize(before + static_cast<std::size_t>(size));
 }
 
-/// Binary data with the counts before it: of bytes, or with compression of blocks, of the bytes in each and in the last
-/// one if that is not full (else 0), and of the bytes of each when compressed.
+/// Binary data after its header: the number of bytes, or, with compression, the number of blocks, the bytes of each, of
+/// the last one if that is shorter (else 0), and the compressed bytes of each.
 std::string decode(EncodedBytes bytes, std::uint64_t numberBytes, VtuArrayEncoding& encoding)
 {
     const std::uint64_t count = takeCount(bytes, encoding);
@@ -144,7 +144,7 @@ std::vector<Number> readNumbers(const tinyxml2::XMLElement& array, VtuArrayEncod
     return numbers;
 }
 
-/// Puts the element's line and name before what is thrown.
+/// Prepends the element's line and name to exceptions.
 template <class Number>
 std::vector<Number> readNamed(const tinyxml2::XMLElement& array, VtuArrayEncoding& encoding)
 {

@@ -16,8 +16,8 @@ namespace
 
 using tinyxml2::XMLElement;
 
-// How many numbers a file may decode to: honest ones have one for each byte or two, and ten or so in grids that
-// compress well; small files of zlib, or of pieces that share their arrays, could fill the memory.
+// Limit of decoded numbers, in total and per byte of the file: genuine files have one number per byte or two, and some
+// ten in grids that compress well; small zlib files, or pieces that share arrays, could otherwise exhaust the memory.
 constexpr std::uint64_t kNumbers = 1000000, kNumbersPerByte = 12;
 
 [[noreturn]] void failAt(const XMLElement& element, const std::string& cause)
@@ -25,7 +25,7 @@ constexpr std::uint64_t kNumbers = 1000000, kNumbersPerByte = 12;
     throw std::runtime_error(message("line ", element.GetLineNum(), ": ", cause));
 }
 
-/// Takes the content of <AppendedData>, which is no XML, out of the file; returns what is left as XML.
+/// Removes the contents of <AppendedData>, which are no XML, from the file; returns the rest as XML.
 std::string cutAppendedData(std::string_view bytes, std::string_view& data)
 {
     const std::size_t tag = bytes.find("<AppendedData");

@@ -36,7 +36,7 @@ inline std::uint64_t readBits(const char* bytes, std::size_t size, ByteOrder ord
     return bits;
 }
 
-/// The integer of given type that these bits are, modulo 2^64.
+/// The integer of the given type with these bits, modulo 2^64.
 inline std::int64_t integerFromBits(std::uint64_t bits, NumberType type)
 {
     const int spare = 64 - 8 * type.size;  // an arithmetic shift to the right repeats the sign
@@ -44,7 +44,7 @@ inline std::int64_t integerFromBits(std::uint64_t bits, NumberType type)
                                                   : static_cast<std::int64_t>(bits);
 }
 
-/// The value of given type that these bits are, rounded to a double.
+/// The value of the given type with these bits, rounded to a double.
 inline double doubleFromBits(std::uint64_t bits, NumberType type)
 {
     if (type.kind == NumberType::unsignedInteger) return static_cast<double>(bits);

@@ -20,7 +20,7 @@ std::string lowerCaseEnding(const std::string& path)
 
 void checkIsFile(const std::string& path)
 {
-    std::error_code ignored;  // what cannot be asked about is not there for us
+    std::error_code ignored;  // a path that cannot be queried counts as missing
     if (!std::filesystem::exists(path, ignored)) throw std::runtime_error("there is no such file");
     if (!std::filesystem::is_regular_file(path, ignored))
         throw std::runtime_error("it is a directory or device, not a file");

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// The ending of a file's name with its dot, in lower case; empty if there is none.
+/// The extension of a file's name with its dot, in lower case; empty if there is none.
 BULLETFEM_API std::string lowerCaseEnding(const std::string& path);
 
 /// Throws std::runtime_error with the cause, without the path, unless this is a regular file.
@@ -19,7 +19,7 @@ BULLETFEM_API void checkIsFile(const std::string& path);
 /// All bytes of a regular file. Throws std::runtime_error with the cause, without the path.
 BULLETFEM_API std::string readBytes(const std::string& path);
 
-/// Its first bytes, at most so many; none if it cannot be read.
+/// The first bytes of a file, at most `most`; none if it cannot be read.
 std::string readHead(const std::string& path, std::size_t most);
 
 }  // namespace bullet_fem

@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 
 struct Signature
 {
-    std::string_view m_bytes;  // that the file begins with
+    std::string_view m_bytes;  // first bytes of the file
     const char* m_name;        // with its article
     const char* m_remedy;      // empty: save it in another format
 };
@@ -51,7 +51,7 @@ bool beginsWith(std::string_view bytes, std::string_view with)
     return bytes.substr(0, with.size()) == with;
 }
 
-/// The number 1, that tells the byte order, and a version, both of four bytes.
+/// The number 1, which shows the byte order, and a version, both of four bytes.
 bool isBinaryMedit(std::string_view bytes)
 {
     if (bytes.size() < 8) return false;
@@ -61,7 +61,7 @@ bool isBinaryMedit(std::string_view bytes)
     return false;
 }
 
-/// Binary files that are read begin with text.
+/// Supported binary files begin with text.
 bool beginsAsKnown(std::string_view bytes)
 {
     const std::size_t first = bytes.find_first_not_of(" \t\r\n");
@@ -70,7 +70,7 @@ bool beginsAsKnown(std::string_view bytes)
     return bytes[0] == '$' || bytes[0] == '#' || bytes[0] == '<' || beginsWith(bytes, "ply");
 }
 
-/// Control characters are in no text, white space excepted.
+/// No text has control characters except white space.
 bool isControl(char c)
 {
     return (c >= 0 && c < ' ' && !(c >= '\t' && c <= '\r')) || c == 127;

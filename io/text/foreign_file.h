@@ -8,14 +8,14 @@
 namespace bullet_fem
 {
 
-/// Bytes looked at to tell what a file is.
+/// Number of bytes used to recognise a file's format.
 constexpr std::size_t kHeadBytes = 512;
 
-/// Throws std::runtime_error if a file that begins so is binary and none that is read: it says in words what the file
-/// is, if its first bytes tell, and what to do; `endings` are those that can be read, ".off or .ply".
+/// Throws std::runtime_error if a file with these first bytes is binary and not supported: the message names its
+/// format, if recognised, and a remedy; `endings` are the supported extensions, ".off or .ply".
 void refuseForeignFile(std::string_view bytes, const char* endings);
 
-/// Without UTF-8's byte order mark, which some editors put in front of a text.
+/// The text without UTF-8's byte order mark, which some editors insert.
 inline std::string_view withoutByteOrderMark(std::string_view bytes)
 {
     constexpr std::string_view mark = "\xEF\xBB\xBF";

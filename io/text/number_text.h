@@ -20,7 +20,7 @@
 namespace bullet_fem
 {
 
-/// Takes the next word off the front of `text`, skipping white space; empty at the end.
+/// Removes the next word from the front of `text`, skipping white space; empty at the end.
 inline std::string_view takeWord(std::string_view& text)
 {
     constexpr std::string_view space = " \t\r\n\v\f";
@@ -36,8 +36,8 @@ inline std::string_view takeWord(std::string_view& text)
     return word;
 }
 
-/// A word of a file for a message, its first 40 characters; bytes that are not printable, and could be meant for a
-/// terminal, are told in words.
+/// A word of a file for a message, its first 40 characters; bytes that are not printable are described in words, for
+/// they could be control sequences of a terminal.
 inline std::string printable(std::string_view word)
 {
     const std::string_view text = word.substr(0, 40);
@@ -46,8 +46,8 @@ inline std::string printable(std::string_view word)
     return std::string(text);
 }
 
-#ifndef __cpp_lib_to_chars  // libc++ before 20 reads integers alone by from_chars
-/// What std::from_chars makes of a whole word, by strtod in the locale "C".
+#ifndef __cpp_lib_to_chars  // from_chars of libc++ before 20 reads integers only
+/// Replacement of std::from_chars for a whole word, by strtod in the locale "C".
 inline bool readReal(const std::string& digits, double& value)
 {
     static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
@@ -60,7 +60,7 @@ inline bool readReal(const std::string& digits, double& value)
 }
 #endif
 
-/// Whether all of `digits` is a number, whatever the locale, which `value` is then.
+/// Whether all of `digits` is a number in any locale; writes it to `value`.
 template <typename Number>
 bool readNumber(std::string_view digits, Number& value)
 {
@@ -75,7 +75,8 @@ bool readNumber(std::string_view digits, Number& value)
     }
 }
 
-/// A whole word as a number, whatever the locale. Throws std::runtime_error naming the word and `what` it should be.
+/// A whole word as a number, independent of the locale. Throws std::runtime_error naming the word and the expected
+/// `what`.
 template <typename Number>
 Number parseNumber(std::string_view word, const char* what)
 {

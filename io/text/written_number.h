@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// A number with nine digits, those of a float, which is what Bullet knows; alike in every locale.
+/// A number with nine digits, which represent a float exactly, independent of the locale.
 inline std::string writtenNumber(double value)
 {
     constexpr int digits = 9;
@@ -16,7 +16,7 @@ inline std::string writtenNumber(double value)
     return std::string(text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr);
 }
 
-/// A number with as few digits as give back the same bits.
+/// A number with the fewest digits for an exact round trip.
 inline std::string exactNumber(double value)
 {
     char text[40];

@@ -16,7 +16,7 @@
 namespace
 {
 
-/// Tells the contact points of a pair; it finds none of its own.
+/// Reports the known contact points of a pair, without collision detection.
 class LastContacts : public btCollisionAlgorithm
 {
 public:
@@ -27,7 +27,7 @@ public:
     {
         const btFemPair pair = femPair(*a->getCollisionObject(), *b->getCollisionObject());
         if (!pair.m_record) return;
-        // Bullet's results ask a manifold which of the two is the first.
+        // Bullet's results ask a manifold for the order of the two objects.
         btPersistentManifold order(a->getCollisionObject(), b->getCollisionObject(), 0, BT_LARGE_FLOAT, 0);
         btPersistentManifold* given = result->getPersistentManifold();
         if (!given) result->setPersistentManifold(&order);
@@ -57,7 +57,7 @@ private:
     }
 };
 
-/// Bodies moved by Bullet's springs keep what Bullet has for them. It has no state, so one serves all dispatchers.
+/// Bodies moved by Bullet's springs keep Bullet's algorithms. Stateless, so one object serves all dispatchers.
 class CreateLastContacts : public btCollisionAlgorithmCreateFunc
 {
 public:

@@ -4,8 +4,8 @@
 
 class btDispatcher;
 
-/// Makes contactTest and contactPairTest of a dispatcher's world see FEM bodies: they tell the contact points of the
-/// last step, as they were when it began, between objects that the world holds. Points are told that touch, and those
-/// whose gap is within the test's own threshold. What the test's objects did since, or objects that have no contact
-/// response, are not looked at. Does nothing if `dispatcher` is null or no btCollisionDispatcher.
+/// Makes contactTest and contactPairTest of a dispatcher's world report FEM bodies: the contact points of the last
+/// step, at their positions at its beginning, between objects in the world. Reported are points in contact, and those
+/// with a gap within the test's threshold. Later motion of the tested objects, and objects without contact response,
+/// are ignored. No effect if `dispatcher` is null or no btCollisionDispatcher.
 void answerContactTests(btDispatcher* dispatcher);

@@ -15,9 +15,9 @@ void announce(btSoftBody& body, bool withManifolds)
     if (!body.m_worldInfo) return;
     btDispatcher* dispatcher = body.m_worldInfo->m_dispatcher;
     bullet_fem::dispatchRigidShapes(dispatcher);
-    if (withManifolds) btFemManifolds::showIn(dispatcher);  // whose algorithms take the place of those before
+    if (withManifolds) btFemManifolds::showIn(dispatcher);  // its algorithms replace the former ones
     answerContactTests(dispatcher);
-    bullet_fem::renewAlgorithms(body);  // what it overlapped before it was FEM has Bullet's
+    bullet_fem::renewAlgorithms(body);  // pairs from before it was FEM have Bullet's algorithms
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 class btSoftBody;
 
-/// Makes the dispatcher of a body's world treat it as a FEM body from the next collision detection on: rigid shapes,
-/// contact tests, and, of the second, manifolds. Nothing if its world info or the dispatcher is not known.
+/// Makes the dispatcher of a body's world treat it as a FEM body from the next collision detection on: for rigid shapes
+/// and contact tests, and by the second function for manifolds. No effect if the world info or the dispatcher is
+/// unknown.
 void announceToDispatcher(btSoftBody& body);
 void announceWithManifolds(btSoftBody& body);

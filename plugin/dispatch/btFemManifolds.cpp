@@ -20,7 +20,7 @@ std::shared_ptr<btFemManifolds> shownBy(const btFemPair& pair)
     return pair.m_record ? btFemCoupling::manifoldsOf(*pair.m_record->m_softBody) : nullptr;
 }
 
-/// Other pairs keep Bullet's algorithms. It has no state, so one serves all dispatchers.
+/// Other pairs keep Bullet's algorithms. Stateless, so one object serves all dispatchers.
 class CreatePairAlgorithm : public btCollisionAlgorithmCreateFunc
 {
 public:

@@ -9,18 +9,18 @@
 class btDispatcher;
 class btFemPairAlgorithm;
 
-/// What FEM bodies touch, as btPersistentManifolds for Bullet's loops and callbacks. The manifold of a pair belongs to
-/// the pair's collision algorithm, which Bullet deletes when their bounds part, when one of the two is removed and when
-/// the world dies: so a manifold never outlives its objects or its dispatcher, nor needs the solver to do so. Allocates
-/// when a pair touches (from Bullet's pool).
+/// Contacts of FEM bodies as btPersistentManifolds for Bullet's loops and callbacks. The manifold of a pair belongs to
+/// the pair's collision algorithm, which Bullet deletes when their bounds separate, when one of the two is removed and
+/// when the world is destroyed: so a manifold never outlives its objects or its dispatcher, whether or not the solver
+/// lives. Allocates when contact begins (from Bullet's pool).
 class btFemManifolds
 {
 public:
-    /// Makes a dispatcher pair FEM bodies whose solver shows manifolds by algorithms that carry them. Does nothing if
-    /// `dispatcher` is null or no btCollisionDispatcher.
+    /// Makes a dispatcher create algorithms with manifolds for pairs with FEM bodies whose solver shows manifolds. No
+    /// effect if `dispatcher` is null or no btCollisionDispatcher.
     static void showIn(btDispatcher* dispatcher);
 
-    /// After the step: the manifolds of pairs that touch are filled, those of others released.
+    /// Call after the step: fills the manifolds of pairs in contact, and releases the others.
     void update();
 
     /// For the pairs' algorithms; may be called by several threads.
@@ -29,5 +29,5 @@ public:
 
 private:
     std::mutex m_mutex;
-    std::vector<btFemPairAlgorithm*> m_algorithms;  // in the order of their making
+    std::vector<btFemPairAlgorithm*> m_algorithms;  // in the order of creation
 };

@@ -26,7 +26,7 @@ btFemPair femPair(const btCollisionObject& first, const btCollisionObject& secon
     return {b, b ? &first : nullptr, false};
 }
 
-// Contact points lie on the soft surface, between soft bodies in the middle.
+// Contact points lie on the soft surface, between soft bodies at the midpoint.
 btFemPairPoint pairPoint(const btFemPair& pair, const btFemContact& contact)
 {
     const btSoftBody* soft = btSoftBody::upcast(pair.m_other);

@@ -6,10 +6,11 @@
 
 struct btFemBodyRecord;
 
-/// Two objects as Bullet's dispatcher pairs them, seen from the FEM body among them.
+/// A pair of Bullet's dispatcher, from the side of its FEM body.
 struct btFemPair
 {
-    const btFemBodyRecord* m_record = nullptr;   ///< of the FEM body, the one awake of two; null if neither is one
+    /// Record of the FEM body, of two the awake one; null if neither is FEM.
+    const btFemBodyRecord* m_record = nullptr;
     const btCollisionObject* m_other = nullptr;  ///< not null if m_record is not
     bool m_isFirst = false;                      ///< the FEM body is the first of the pair
 };
@@ -17,10 +18,10 @@ struct btFemPair
 /// Both must be in a world.
 btFemPair femPair(const btCollisionObject& first, const btCollisionObject& second);
 
-/// A contact point in the manner of Bullet's manifolds.
+/// A contact point in the form of Bullet's manifolds.
 struct btFemPairPoint
 {
-    btVector3 m_onFirst, m_onSecond;  ///< surfaces at the start of the step, world [m]
+    btVector3 m_onFirst, m_onSecond;  ///< points on both surfaces at the start of the step, world [m]
     btVector3 m_normal;               ///< unit, from the second to the first
     btVector3 m_friction;             ///< impulse on the first [N s]
 };

@@ -18,13 +18,13 @@
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemTouches.h"
 
-// Bullet's pool does not check what is put into its elements, which are made for Bullet's own algorithms.
+// Bullet's pool does not check the size of its elements, which is that of Bullet's own algorithms.
 static_assert(sizeof(btFemPairAlgorithm) <= sizeof(btSoftBodyConcaveCollisionAlgorithm));
 
 namespace
 {
 
-/// The touching points of smallest gap, in that order.
+/// The contact points of smallest gap, in ascending order.
 struct Deepest
 {
     std::array<const btFemContact*, MANIFOLD_CACHE_SIZE> m_points;
@@ -47,7 +47,7 @@ Deepest deepestOf(const btFemPair& pair)
     return deepest;
 }
 
-// The coefficients that were used.
+// Friction and restitution used in the step.
 void setCoefficients(const btFemPair& pair, btManifoldPoint& point)
 {
     const btSoftBody& body = *pair.m_record->m_softBody;
@@ -73,7 +73,7 @@ btManifoldPoint manifoldPoint(const btFemPair& pair, const btFemContact& contact
     return point;
 }
 
-// As Bullet does for its own points; what the callback changes has no effect on the step, which is over.
+// As in Bullet for its own points; changes by the callback have no effect, because the step is over.
 void tellAdded(btManifoldPoint& point, const btPersistentManifold& manifold)
 {
     const btCollisionObject *a = manifold.getBody0(), *b = manifold.getBody1();
@@ -86,8 +86,7 @@ void tellAdded(btManifoldPoint& point, const btPersistentManifold& manifold)
     gContactAddedCallback(point, &wrapA, point.m_partId0, point.m_index0, &wrapB, point.m_partId1, point.m_index1);
 }
 
-// Points have no identity from step to step: their life time is that of the touch, and the user's pointers stay where
-// they are.
+// Points have no identity over steps: their lifetime is that of the contact, and user pointers keep their position.
 void setPoint(btPersistentManifold& manifold, int index, const btManifoldPoint& point)
 {
     const bool isNew = index >= manifold.getNumContacts();
@@ -104,7 +103,7 @@ btFemPairAlgorithm::btFemPairAlgorithm(const btCollisionAlgorithmConstructionInf
                                        std::shared_ptr<btFemManifolds> manifolds)
     : btCollisionAlgorithm(info), m_objects(objects), m_manifolds(std::move(manifolds))
 {
-    // Programs that know rigid bodies only look at the first.
+    // Programs without soft bodies read the first object only.
     if (btSoftBody::upcast(m_objects.m_first)) std::swap(m_objects.m_first, m_objects.m_second);
     m_manifolds->add(this);
 }
@@ -150,7 +149,7 @@ void btFemPairAlgorithm::show(const btFemPair& pair)
     const bool begins = !m_manifold;
     if (begins) m_manifold = m_dispatcher->getNewManifold(m_objects.m_first, m_objects.m_second);
     if (!m_manifold) return;                                     // Bullet's pool is full and may not grow
-    m_manifold->setContactProcessingThreshold(-BT_LARGE_FLOAT);  // the rigid solver leaves all points alone
+    m_manifold->setContactProcessingThreshold(-BT_LARGE_FLOAT);  // makes the rigid solver ignore all points
     const Deepest deepest = deepestOf(pair);
     const int lifeTime = begins ? 0 : m_manifold->getContactPoint(0).m_lifeTime + 1;
     for (int k = 0; k < deepest.m_count; ++k)

@@ -9,8 +9,8 @@
 
 struct btFemPair;
 
-/// Bullet's collision algorithm of a FEM body and another object of any shape: hands the pair to the soft body solver
-/// and owns the manifold that shows their touch. Bullet makes and deletes it with the pair.
+/// Bullet's collision algorithm for a FEM body and another object of any shape: passes the pair to the soft body
+/// solver, and owns the manifold of their contact. Bullet creates and deletes it with the pair.
 class btFemPairAlgorithm : public btCollisionAlgorithm
 {
 public:
@@ -23,8 +23,8 @@ public:
                        std::shared_ptr<btFemManifolds> manifolds);
     ~btFemPairAlgorithm() override;
 
-    /// Fills the manifold with the deepest points of the last step, or releases it if the two do not touch; leaves it
-    /// as it is while the FEM body sleeps or another world is stepped.
+    /// Fills the manifold with the deepest points of the last step, or releases it without contact; unchanged while the
+    /// FEM body sleeps or another world is stepped.
     void update();
 
     void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,

@@ -9,7 +9,7 @@
 namespace
 {
 
-// True if every render node has what Bullet takes for granted: weights, and three parents with a distance from their
+// True if every render node has the data that Bullet requires: weights, and three parents with a distance from their
 // plane, or four, or none.
 bool isEmbedded(const btSoftBody& body)
 {
@@ -26,7 +26,7 @@ bool isEmbedded(const btSoftBody& body)
     return true;
 }
 
-/// Bullet tells nobody how far its clock is ahead of the last step.
+/// Bullet does not publish the difference between its clock and the last step.
 struct WorldClock : btDiscreteDynamicsWorld
 {
     static btScalar localTime(const btDiscreteDynamicsWorld& world) { return world.*(&WorldClock::m_localTime); }

@@ -23,12 +23,12 @@ namespace
 
 constexpr double kWaterDensity = 1000;  // [kg/m3]
 
-/// What a body is made of.
+/// The data of a new body.
 struct Solid
 {
     const TetMesh& m_mesh;
-    const std::vector<Vec3>& m_positions;  // of its nodes
-    std::vector<double> m_mass;            // likewise
+    const std::vector<Vec3>& m_positions;  // node positions [m]
+    std::vector<double> m_mass;            // node masses [kg]
     const std::vector<double>& m_filled;
     double m_massScale;
 };
@@ -51,7 +51,7 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Sol
     body->initializeDmInverse();
     for (std::size_t e = 0; e < solid.m_filled.size(); ++e)
         storeFill(*body, static_cast<int>(e), solid.m_filled[e], solid.m_massScale);
-    body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // as users of solids expect; Bullet's default is none
+    body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // expected for solids; Bullet's default has neither
     return body;
 }
 
@@ -62,7 +62,7 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Tet
                                   filled, massScale});
 }
 
-/// A surface that follows tetrahedra.
+/// An embedded surface.
 struct EmbeddedSurface
 {
     const std::vector<Tet>& m_tets;
@@ -70,7 +70,7 @@ struct EmbeddedSurface
     const std::vector<Triangle>& m_triangles;
 };
 
-// Bullet's fields for a surface that follows the tetrahedra.
+// Sets Bullet's fields for an embedded surface.
 void embed(btSoftBody& body, const EmbeddedSurface& surface)
 {
     const int vertexCount = static_cast<int>(surface.m_vertices.size());

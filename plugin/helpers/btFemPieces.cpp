@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Cuts soft bodies into pieces along the faces of their tetrahedra.
+// Cuts soft bodies into fragments along the faces of their tetrahedra.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -23,7 +23,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr int kCandidates = 10;  // of which the one that is farthest from the others becomes a cell's point
+constexpr int kCandidates = 10;  // candidates per cell; the one farthest from the other points is taken
 
 RestMesh restOf(const btSoftBody* body, const char* caller)
 {
@@ -33,7 +33,7 @@ RestMesh restOf(const btSoftBody* body, const char* caller)
     return restMeshOf(*body);
 }
 
-/// Of every tetrahedron those behind its faces, -1 where there is none.
+/// Neighbours of every tetrahedron behind its faces; -1: none.
 std::vector<std::array<int, 4>> neighboursOf(const TetMesh& mesh)
 {
     struct Side
@@ -63,7 +63,7 @@ std::vector<std::array<int, 4>> neighboursOf(const TetMesh& mesh)
     return neighbours;
 }
 
-/// The parts of a mesh that hang together by faces between tetrahedra of one label, in the order of their first ones.
+/// The components of a mesh connected by faces between tetrahedra of one label, in the order of their first tetrahedra.
 std::vector<std::vector<int>> partsOf(const TetMesh& mesh, const std::vector<int>& labels)
 {
     const std::vector<std::array<int, 4>> neighbours = neighboursOf(mesh);
@@ -87,13 +87,13 @@ std::vector<std::vector<int>> partsOf(const TetMesh& mesh, const std::vector<int
     return parts;
 }
 
-/// Parts of a label that do not hang together with its largest go to a neighbour's label, so that cells stay whole.
+/// Components of a label other than its largest take a neighbour's label, so that cells are connected.
 void joinStrays(const TetMesh& mesh, std::vector<int>& labels)
 {
     constexpr int kNone = -1;
     const std::vector<std::array<int, 4>> neighbours = neighboursOf(mesh);
     const std::vector<std::vector<int>> parts = partsOf(mesh, labels);
-    std::map<int, std::size_t> largest;  // part of a label
+    std::map<int, std::size_t> largest;  // largest component of each label
     for (std::size_t p = 0; p < parts.size(); ++p)
     {
         const auto at = largest.emplace(labels[parts[p].front()], p).first;
@@ -112,7 +112,7 @@ void joinStrays(const TetMesh& mesh, std::vector<int>& labels)
             joined[next] = joined[reached[k]];
             reached.push_back(next);
         }
-    for (std::size_t e = 0; e < labels.size(); ++e)  // what no face leads to stays as it is
+    for (std::size_t e = 0; e < labels.size(); ++e)  // unreachable tetrahedra keep their label
         if (joined[e] != kNone) labels[e] = joined[e];
 }
 
@@ -131,8 +131,9 @@ int nearestOf(const std::vector<Vec3>& points, const Vec3& x)
     return nearest;
 }
 
-/// Points at centroids, drawn by volume; of some candidates each time the one farthest from the points so far [Mitchell
-/// 1991]. The generator's numbers are the same everywhere; std's distributions are not.
+/// Random points at element centroids, with probability by volume; each is the best of some candidates, the one
+/// farthest from the previous points [Mitchell 1991]. The generator is specified exactly by the standard; std's
+/// distributions are not.
 std::vector<Vec3> spreadPoints(const TetMesh& mesh, int count, unsigned randomSeed)
 {
     std::vector<double> sums(1, 0);
@@ -159,13 +160,13 @@ std::vector<Vec3> spreadPoints(const TetMesh& mesh, int count, unsigned randomSe
     return points;
 }
 
-/// What nodes weigh and who shares it.
+/// Node masses and the volumes by which they are divided.
 struct SharedMass
 {
-    std::vector<double> m_mass;    // of every node; 0: pinned [kg]
-    std::vector<double> m_volume;  // at every node [m3]
-    std::vector<double> m_ofTet;   // of every tetrahedron, as far as it is filled [m3]
-    std::vector<double> m_filled;  // fractions; empty: all 1
+    std::vector<double> m_mass;    // mass of every node; 0: pinned [kg]
+    std::vector<double> m_volume;  // volume at every node [m3]
+    std::vector<double> m_ofTet;   // filled volume of every tetrahedron [m3]
+    std::vector<double> m_filled;  // filled fractions; empty: all 1
 };
 
 SharedMass sharedMassOf(const btSoftBody& body, const TetMesh& mesh)
@@ -180,11 +181,11 @@ SharedMass sharedMassOf(const btSoftBody& body, const TetMesh& mesh)
     return shared;
 }
 
-/// Bullet's fields that say how it behaves.
+/// Copies the settings of the cut body.
 void copySettings(const btSoftBody& from, btSoftBody& to)
 {
     to.m_cfg = from.m_cfg;
-    to.m_cfg.collisions &= ~BT_FEM_RENDER_SURFACE;  // it has none
+    to.m_cfg.collisions &= ~BT_FEM_RENDER_SURFACE;  // the fragment has no embedded surface
     to.m_materials[0]->m_kLST = from.m_materials[0]->m_kLST;
     to.m_materials[0]->m_kAST = from.m_materials[0]->m_kAST;
     to.m_materials[0]->m_kVST = from.m_materials[0]->m_kVST;

@@ -19,7 +19,7 @@ using namespace bullet_fem;
 namespace
 {
 
-// As Bullet's importer does it: every vertex follows the element that it is in, or nearest to.
+// As in Bullet's importer, every vertex is embedded in the element that contains it or is nearest to it.
 void drawAs(btSoftBody& body, const SurfaceMesh& surface)
 {
     body.m_renderNodes.resize(static_cast<int>(surface.m_vertices.size()));

@@ -4,7 +4,7 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 
-/// Whether the pointer is one of the array's.
+/// True if the pointer points into the array.
 template <class T>
 bool btFemHolds(const btAlignedObjectArray<T*>& array, const T* element)
 {

@@ -14,9 +14,9 @@ namespace
 {
 
 constexpr double kSameFactor =
-    1 + 2e-3;  // ratio of step or mass up to which a factor is not called stale: a copy elsewhere may share it
+    1 + 2e-3;  // maximum ratio of step or mass of a factor that does not count as stale: a copy elsewhere may share it
 
-constexpr double kDeepShare = 0.01;  // of a body's size: what is deeper is told; see BT_FEM_PENETRATING
+constexpr double kDeepShare = 0.01;  // minimum depth over a body's size for BT_FEM_PENETRATING
 
 }  // namespace
 

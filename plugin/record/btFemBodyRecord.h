@@ -23,96 +23,96 @@
 
 struct btFemFactorJob;
 
-/// How far a body has come in a step.
+/// Stage of a body within a step.
 enum class btFemStage
 {
     none,       ///< between steps
     predicted,  ///< in predictMotion
-    free,       ///< its free motion is solved; contact is not
-    solved      ///< contact is solved too, within the rigid solver
+    free,       ///< free motion is solved, contact is not
+    solved      ///< contact is also solved, within the rigid solver
 };
 
-/// Who moves a body.
+/// Solver that moves a body.
 enum class btFemMover
 {
-    undecided,  ///< its set-up was not tried yet
+    undecided,  ///< set-up was not tried yet
     fem,        ///< finite elements
-    springs     ///< Bullet's springs: it cannot be FEM, see btFemSetUpResult::m_message
+    springs     ///< Bullet's springs, because set-up failed: see btFemSetUpResult::m_message
 };
 
 /// The world that steps a body.
 struct btFemMembership
 {
-    const void* m_world = nullptr;        ///< its array of soft bodies; null while the body is not in a world
-    const void* m_formerWorld = nullptr;  ///< the one it was taken over from
-    int m_handedBack = 0;                 ///< times that the former world claimed it again
-    bool m_present = false;               ///< the world being stepped holds it, and shall step it
+    const void* m_world = nullptr;        ///< the world's array of soft bodies; null while the body is in no world
+    const void* m_formerWorld = nullptr;  ///< the world from which it was taken over
+    int m_handedBack = 0;                 ///< number of times that the former world claimed it again
+    bool m_present = false;               ///< the world being stepped contains it and steps it
 };
 
-/// What the user asked for.
+/// Settings by the user.
 struct btFemRequest
 {
     bullet_fem::ElementMaterials m_materials;
     bool m_materialGiven = false;
-    bool m_materialChanged = false;  ///< the model does not have it yet
+    bool m_materialChanged = false;  ///< the model does not include it yet
     btFemDetail m_detail = btFemDetail::automatic;
     double m_contactOffset = 0;                           ///< [m]
-    std::shared_ptr<const btFemDefinition> m_definition;  ///< rest shape and masses, until it is set up
-    std::shared_ptr<const btFemBaked> m_baked;            ///< rest shape and factor, likewise
-    btFemTensileStrength m_strength;                      ///< no tension: it does not split
+    std::shared_ptr<const btFemDefinition> m_definition;  ///< rest shape and masses, until set-up
+    std::shared_ptr<const btFemBaked> m_baked;            ///< rest shape and factor, until set-up
+    btFemTensileStrength m_strength;                      ///< tension 0: the body never splits
 };
 
-/// Which of m_faces the triangles of a body's surface are.
+/// Map from the triangles of a body's surface to m_faces.
 struct btFemFaceIndex
 {
-    std::vector<int> m_faceOf;      ///< per surface triangle; -1: none of them
-    const void* m_first = nullptr;  ///< where m_faces was when this was made
-    int m_count = -1;               ///< and how many they were
+    std::vector<int> m_faceOf;      ///< face of each surface triangle; -1: none
+    const void* m_first = nullptr;  ///< address of m_faces at that time
+    int m_count = -1;               ///< number of faces at that time
 };
 
-/// Where a body splits.
+/// Crack search of a body.
 struct btFemCracks
 {
     explicit btFemCracks(std::shared_ptr<const bullet_fem::RestShape> shape) : m_fracture(std::move(shape)) {}
 
     bullet_fem::Fracture m_fracture;
-    bullet_fem::SplitMesh m_split;  ///< if it is found
-    bool m_found = false;           ///< in this step
+    bullet_fem::SplitMesh m_split;  ///< result, if m_found
+    bool m_found = false;           ///< a crack was found in this step
 };
 
-/// What became of it.
+/// Results of set-up.
 struct btFemSetUpResult
 {
     std::unique_ptr<bullet_fem::FemSoftBody> m_fem;
-    std::shared_ptr<const bullet_fem::BodyModel> m_formerModel;       ///< kept, so that a step size that comes and goes
-    std::shared_ptr<bullet_fem::ComplianceCache> m_formerCompliance;  ///< is not factored for again and again
+    std::shared_ptr<const bullet_fem::BodyModel> m_formerModel;       ///< kept, so that alternating step sizes
+    std::shared_ptr<bullet_fem::ComplianceCache> m_formerCompliance;  ///< do not cause repeated factorizations
     bool m_rejected = false;
-    bool m_asksSkin = false, m_hasAskedSurface = false;  ///< what was wanted to collide when that was last looked at
+    bool m_asksSkin = false, m_hasAskedSurface = false;  ///< requested collision surface at the last check
     std::string m_message;
-    bool m_wasChanged = false;  ///< by the program, which appended, removed or rejoined nodes or tetrahedra
-    int m_flags = 0;            ///< that hold until the body is set up anew
+    bool m_wasChanged = false;  ///< the program appended, removed or reconnected nodes or tetrahedra
+    int m_flags = 0;            ///< flags that persist until the body is set up anew
     btFemTooSoft m_tooSoft;
     btFemFaceIndex m_faceIndex;
-    std::unique_ptr<btFemCracks> m_cracks;  ///< of a body that has a strength, once a step has ended
+    std::unique_ptr<btFemCracks> m_cracks;  ///< of a body with a strength, after its first step
 };
 
-/// What steps work with, and carry on to the next.
+/// State that steps use and pass on to the next step.
 struct btFemStepWork
 {
     btFemStage m_stage = btFemStage::none;
     double m_lastStep = 0;        ///< [s]
-    bool m_isFinished = false;    ///< its nodes have normals and a speed: see btFemWorldStep::finish
-    double m_factorMismatch = 1;  ///< factorMismatch() as the step began
+    bool m_isFinished = false;    ///< normals and speed are updated: see btFemWorldStep::finish
+    double m_factorMismatch = 1;  ///< factorMismatch() at the beginning of the step
     double m_staleness = 1;       ///< staleness() in the free motion
     btFemSleepRecord m_sleep;
     btFemDetailLevel m_detailLevel;
     btFemFactorAccount m_factorAccount;
-    std::shared_ptr<btFemFactorJob> m_factorJob;  ///< the next factor, being made in the background
+    std::shared_ptr<btFemFactorJob> m_factorJob;  ///< the next factor, computed in the background
     btFemRealTime m_realTime;
     btFemInsideOut m_insideOut;
 };
 
-/// What the user reads.
+/// Reports to the user.
 struct btFemBodyReports
 {
     btFemStepReport m_step;
@@ -121,7 +121,7 @@ struct btFemBodyReports
     btAlignedObjectArray<btFemAnchorReport> m_anchors;
 };
 
-/// All that the solver knows of one btSoftBody.
+/// The solver's record of one btSoftBody.
 struct btFemBodyRecord
 {
     explicit btFemBodyRecord(btSoftBody* softBody) : m_softBody(softBody) {}
@@ -140,28 +140,28 @@ struct btFemBodyRecord
     }
     bool isFem() const { return m_model.m_fem != nullptr; }
     bool isStepped() const { return m_membership.m_present && isFem(); }
-    /// Of a body that is FEM.
+    /// The FEM body; requires isFem().
     bullet_fem::FemSoftBody& fem() const { return *m_model.m_fem; }
 };
 
-/// Of a solver, in the order in which they became known.
+/// The records of a solver, in the order of creation.
 using btFemRecords = std::vector<std::unique_ptr<btFemBodyRecord>>;
 
-/// What a body is made of: what the user said, or what Bullet's fields say.
+/// Materials of a body: those set by the user, or else from Bullet's fields.
 bullet_fem::ElementMaterials materialsOf(const btFemBodyRecord& record);
 
-/// The detail that a body's next free motion is solved with: what touches something is iterated to the tolerance.
+/// The detail of a body's next free motion; bodies in contact are iterated to the tolerance.
 btFemDetail detailInUse(const btFemBodyRecord& record);
 
-/// Those of BT_FEM_PENETRATING and BT_FEM_INSIDE_OUT that a FEM body's last step left it with.
+/// The flags BT_FEM_PENETRATING and BT_FEM_INSIDE_OUT after a FEM body's last step.
 int stateFlags(const btFemBodyRecord& record);
 
-/// By how much a body's factor is off for a step [s]: 1 if it is fresh, the largest ratio of step or masses if it is
-/// not, infinity if other nodes are fixed than those that it was made for.
+/// Mismatch of a body's factor for a step [s]: 1 for a fresh factor, else the largest ratio of step or masses, infinity
+/// if other nodes are fixed than those of the factor.
 double staleness(const btFemBodyRecord& record, double step);
 
 /// A body's own step [s]: Bullet scales time by m_cfg.timescale.
 double bodyStep(const btFemBodyRecord& record, double worldStep);
 
-/// Takes over what the user wrote to the nodes of a FEM body; what could not be used is flagged in its report.
+/// Reads the user's changes to the nodes of a FEM body; unusable values are flagged in its report.
 void readBody(btFemBodyRecord& record);

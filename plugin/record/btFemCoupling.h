@@ -26,33 +26,34 @@ struct btFemStressScratch
     std::vector<bullet_fem::Stress> m_perElement, m_perNode;
 };
 
-/// What btFemConstraintSolver, btFemDeformableBodySolver, Bullet's dispatcher and those parts of btFemSoftBodySolver's
-/// interface that stand in other files may do with it, and nobody else.
+/// The internal interface of btFemSoftBodySolver for btFemConstraintSolver, btFemDeformableBodySolver, Bullet's
+/// dispatcher and public functions in other files.
 struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
     static btFemContactGroup* beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
                                          double step, bool linksToo);
-    /// The bodies among which cloth is that FEM bodies touch, in place of those of optimize(); must live as long.
+    /// Sets the bodies among which cloth in contact with FEM bodies is searched, instead of those of optimize(); they
+    /// must outlive the solver's use.
     static void setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies);
-    /// All that is known of a body; null if nothing is.
+    /// The record of a body; null if it is unknown.
     static const btFemBodyRecord* record(const btFemSoftBodySolver& fem, const btSoftBody& body);
-    /// The record that the body's own solver has of it; null if that is not a btFemSoftBodySolver, or knows nothing.
+    /// The record of a body in its own solver; null if that is no btFemSoftBodySolver, or the body is unknown.
     static const btFemBodyRecord* recordOf(const btSoftBody& body);
-    /// Manifolds of a body's own solver; null if that is not a btFemSoftBodySolver, or shows none.
+    /// Manifolds of a body's own solver; null if that is no btFemSoftBodySolver, or shows none.
     static std::shared_ptr<btFemManifolds> manifoldsOf(const btSoftBody& body);
-    /// Of a body that is FEM; throws std::invalid_argument, in the name of `caller`, if it is not.
+    /// The record of a FEM body; throws std::invalid_argument, with `caller` in the message, if it is not FEM.
     static btFemBodyRecord& femRecord(btFemSoftBodySolver& fem, const btSoftBody* body, const char* caller);
     static btFemWeldBreaker& welds(const btFemSoftBodySolver& fem);
     static btFemSplitter& splitter(const btFemSoftBodySolver& fem);
     static btFemBodyRegistry& registry(const btFemSoftBodySolver& fem);
-    /// Shows in this step's report of a body that `fem` does not move why it is not FEM.
+    /// Reports why a body, not moved by `fem`, is not FEM.
     static void reportRejection(btFemSoftBodySolver& fem, btSoftBody& body, const std::string& why);
     /// See ArticulatedBodies::assumeForcesGiven.
     static void assumeForcesGiven(btFemSoftBodySolver& fem, const bullet_fem::Vec3& gravity);
     /// Null unless btFemSolverInfo::m_manifolds is set.
     static std::shared_ptr<btFemManifolds> manifolds(const btFemSoftBodySolver& fem);
     static btFemSnapshotScope snapshotScope(const btFemSoftBodySolver& fem);
-    /// What stresses are computed in; kept, so that it grows once.
+    /// Scratch for stresses, kept to avoid allocation.
     static btFemStressScratch& stressScratch(const btFemSoftBodySolver& fem);
 };

@@ -5,18 +5,18 @@
 #include "bullet_fem/btFemInterest.h"
 #include "bullet_fem/btFemReports.h"
 
-/// The detail that a body's interest has brought it to.
+/// Level of detail of a body by its interest.
 class btFemDetailLevel
 {
 public:
-    /// Takes over the interest of a step [-], in [0, 1]; `step` [s] has passed since the last one. The first interest
-    /// sets the level as it stands.
+    /// Updates the level by the interest of a step [-], in [0, 1]; `step` [s] has passed since the last call. The first
+    /// interest sets the level directly.
     void update(double interest, double step, const btFemDetailPolicy& policy);
 
     /// nodalWarp, oneIteration or direct; nodalWarp before the first interest.
     btFemDetail detail() const;
 
-    /// Its members, to or from a snapshot; and whether they can be those of a level.
+    /// Reads or writes the members of a snapshot; valid() checks untrusted ones.
     template <class Bytes>
     void transfer(Bytes& bytes)
     {
@@ -27,5 +27,5 @@ public:
 private:
     bool m_begun = false;
     int m_level = 2;       // 0: direct, 1: oneIteration, 2: nodalWarp
-    double m_seconds = 0;  // in that level
+    double m_seconds = 0;  // time on that level [s]
 };

@@ -10,14 +10,14 @@ using namespace bullet_fem;
 namespace
 {
 
-// Nanoseconds on one core of an AMD EPYC with AVX-512, within a half of what bulletfem_bench_kernels and
-// bulletfem_bench_scaling measured from 1,536 to 98,304 elements. Ratios alone matter, and they differ less from
-// machine to machine than that.
+// Cost model: nanoseconds on one core of an AMD EPYC with AVX-512, within 50 % of measurements by
+// bulletfem_bench_kernels and bulletfem_bench_scaling from 1,536 to 98,304 elements. Only ratios matter, which differ
+// less between machines.
 constexpr double kSetUpOfTet = 2000;        // assembly, order and supernodes
 constexpr double kFactorOfFlop = 1.0 / 20;  // numeric phase
 constexpr double kProductOfTet = 8;         // A p
-constexpr double kSolveOfEntry = 0.1;       // forward and backward, from the cache
-constexpr double kSolveOfFarEntry = 0.5;    // likewise, from memory
+constexpr double kSolveOfEntry = 0.1;       // forward and backward substitution, panels in cache
+constexpr double kSolveOfFarEntry = 0.5;    // forward and backward substitution, panels in memory
 constexpr double kCacheEntries = 5e6;       // 20 MB
 
 // Flops over records^1.5, .18 to .21 in the beams of the benchmarks; .94 for a dense matrix.

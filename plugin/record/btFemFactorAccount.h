@@ -4,37 +4,35 @@
 
 #include "bullet_fem/fem/factor/body_model.h"
 
-/// What a new factor costs, in iterations with this model's [-]. Counted from its size, not measured, so that decisions
-/// that rest on it are the same on every machine.
+/// Cost of a new factor in iterations with this model's factor [-]. Computed from its size, not measured, so that
+/// decisions based on it are deterministic.
 double refactorPrice(const bullet_fem::BodyModel& model);
 
-/// How many iterations more than with a fresh factor one can need whose step or masses are `mismatch` times off (>= 1;
-/// infinite: other nodes are fixed), to lower the residual to `tolerance` [-].
+/// Additional iterations, compared with a fresh factor, to lower the residual to `tolerance` [-] with a factor whose
+/// step or masses differ by the ratio `mismatch` (>= 1; infinite: other nodes are fixed).
 double iterationsLostTo(double mismatch, double tolerance);
 
-/// Keeps account of what a body's stale factor costs. A new one pays as soon as the old one has cost as much: then the
-/// sum is never more than twice what the best choice in hindsight would have cost, whatever comes (rent or buy [Karlin
-/// et al. 1988]). Where factors never last, as with a step that changes all the time, each one that has not earned its
-/// price makes the next twice as dear.
+/// Account of the cost of a body's stale factor. A new factor pays once the old one has cost its price: the total is
+/// then at most twice that of the best choice in hindsight (rent or buy [Karlin et al. 1988]). If factors never last,
+/// as with a step that changes all the time, each factor that has not paid off doubles the price of the next.
 class btFemFactorAccount
 {
 public:
     btFemFactorAccount() = default;
 
-    /// Takes over a step's iterations with the factor that the body has; `mismatch` as in iterationsLostTo, 1 for a
-    /// fresh factor.
+    /// Adds a step's iterations with the present factor; `mismatch` as in iterationsLostTo, 1 for a fresh factor.
     void note(int iterations, double mismatch, double tolerance);
 
     /// True if the factor was stale in the last step and has cost `price` iterations or more.
     bool refactorPays(double price) const { return m_stale && m_lost >= price * m_dearness; }
 
-    /// Begins anew, with a factor at that price [iterations] that the account called for.
+    /// Resets the account after a factor, of that price [iterations], that the account requested.
     void spend(double price);
 
-    /// Begins anew, with a factor that somebody else called for.
+    /// Resets the account after a factor with another cause.
     void clear() { *this = btFemFactorAccount(m_fresh); }
 
-    /// Its members, to or from a snapshot.
+    /// Reads or writes the members of a snapshot.
     template <class Bytes>
     void transfer(Bytes& bytes)
     {
@@ -44,11 +42,11 @@ public:
 private:
     explicit btFemFactorAccount(double fresh) : m_fresh(fresh) {}
 
-    double m_fresh = -1;    // mean iterations a step with a fresh factor; < 0: not known
-    bool m_stale = false;   // in the last step
-    double m_lost = 0;      // iterations since the account began
-    double m_dearness = 1;  // by how much the price is raised
-    double m_owed = 0;      // what the last factor has yet to earn [iterations]
-    double m_rate = 0;      // iterations a step that it was to save
-    int m_staleSteps = 0;   // since the account began
+    double m_fresh = -1;    // mean iterations per step with a fresh factor; < 0: unknown
+    bool m_stale = false;   // the factor was stale in the last step
+    double m_lost = 0;      // iterations lost since the account began
+    double m_dearness = 1;  // factor on the price
+    double m_owed = 0;      // iterations that the last factor has still to save
+    double m_rate = 0;      // iterations per step that it was expected to save
+    int m_staleSteps = 0;   // stale steps since the account began
 };

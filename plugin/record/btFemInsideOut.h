@@ -7,20 +7,20 @@
 
 #include "bullet_fem/fem/mesh/tet_mesh.h"
 
-/// Looks for elements that are inside out: at a part of them in every step, since all would cost a share of a step that
-/// is worth something, and those that matter stay so.
+/// Search for inverted elements, in one part of the mesh per step: checking all would cost a noticeable share of a
+/// step, and relevant inversions persist.
 class btFemInsideOut
 {
 public:
-    static constexpr int kParts = 32;  ///< steps in which all elements are looked at
+    static constexpr int kParts = 32;  ///< number of steps in which all elements are checked
 
-    /// Looks at the next part, with the nodes at x [m].
+    /// Checks the next part, with the nodes at x [m].
     void look(const std::vector<bullet_fem::Tet>& tets, const std::vector<bullet_fem::Vec3>& x);
 
-    /// True if some element was inside out when it was looked at last.
+    /// True if some element was inverted at its last check.
     bool isAny() const { return m_found != 0; }
 
-    /// Its members, to or from a snapshot; and whether they can be those of one.
+    /// Reads or writes the members of a snapshot; valid() checks untrusted ones.
     template <class Bytes>
     void transfer(Bytes& bytes)
     {
@@ -29,6 +29,6 @@ public:
     bool valid() const { return m_next >= 0 && m_next < kParts; }
 
 private:
-    int m_next = 0;             // part
-    std::uint32_t m_found = 0;  // a bit for every part that has one
+    int m_next = 0;             // next part
+    std::uint32_t m_found = 0;  // one bit per part: it has inverted elements
 };

@@ -5,7 +5,7 @@
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/fem/factor/body_model.h"
 
-/// Writes into a report what a body's model is: its size, and its factor.
+/// Writes size and factor of a body's model to a report.
 inline void reportModel(const bullet_fem::BodyModel& model, btFemStepReport& report)
 {
     report.m_nodes = model.nodeCount();

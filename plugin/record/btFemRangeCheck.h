@@ -4,7 +4,7 @@
 
 #include <string>
 
-/// Returns `good`; where it is false and `why` is there, that tells the setting, its value and the range it must be in.
+/// Returns `good`; if it is false and `why` is not null, writes the setting, its value and its range there.
 inline bool btFemRangeCheck(bool good, std::string* why, const char* name, double value, const std::string& range)
 {
     if (!good && why) *why = std::string(name) + " is " + std::to_string(value) + ", not in " + range;

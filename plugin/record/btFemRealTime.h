@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-/// Notices when a body cannot be solved in real time, and not just for a moment.
+/// Detects bodies that persistently cannot be solved in real time.
 class btFemRealTime
 {
 public:
-    /// Takes over what a step took and how long it is [both ms]. True if most of the steps of late took longer than
-    /// they are: from 10 more of those than of the others on, until there are as many of either.
+    /// Adds the cost and the length of a step [both ms]. True once ten more of the recent steps took longer than their
+    /// length than did not, until both are equally many.
     bool isTooSlow(double taken, double step)
     {
         m_slowSteps = std::clamp(m_slowSteps + (taken > step ? 1 : -1), 0, kMax);
@@ -19,6 +19,6 @@ public:
 
 private:
     static constexpr int kPersistent = 10, kMax = 20;
-    int m_slowSteps = 0;  // more than others, of late
+    int m_slowSteps = 0;  // excess of slow steps
     bool m_tooSlow = false;
 };

@@ -5,17 +5,17 @@
 #include "LinearMath/btVector3.h"
 #include "bullet_bridge/body/fem_soft_body.h"
 
-/// The rigid motion X -> c + R (X - C) that brings the rest shape nearest to a body's nodes, weighed by their masses: R
-/// is the rotation of sum m (x - c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]
+/// Mass-weighted best rigid fit X -> c + R (X - C) of the rest shape to a body's nodes: R is the rotation of sum m (x -
+/// c) (X - C)^T. [Mueller et al. 2005, Meshless deformations based on shape matching]
 class btFemRigidFit
 {
 public:
     explicit btFemRigidFit(const bullet_fem::FemSoftBody& fem);
 
-    /// Position of a node without deformation, world [m].
+    /// Position of a node in the undeformed body, world [m].
     btVector3 place(int node) const;
 
-    /// R.
+    /// The rotation R.
     const bullet_fem::Mat3& rotation() const { return m_rotation; }
 
 private:

@@ -11,31 +11,31 @@
 
 class btCollisionObject;
 
-/// An object beside a body, as it was at the end of a step. Its address is compared, never followed.
+/// A neighbour of a body at the end of a step. Its address is compared, never dereferenced.
 struct btFemNeighbour
 {
     const btCollisionObject* m_object;
-    int m_id;  ///< in the broadphase
+    int m_id;  ///< broadphase id
     btTransform m_transform;
-    bool m_touches;            ///< it has contact points with the body, or is soft
+    bool m_touches;            ///< it is in contact with the body, or soft
     bool m_held;               ///< an anchor or joint of the body holds it
-    std::uint64_t m_mark = 0;  ///< of what the body feels of it: shape and material
-    bool m_here = false;       ///< scratch: the world still holds it here
+    std::uint64_t m_mark = 0;  ///< hash of its properties that affect the body: shape and material
+    bool m_here = false;       ///< scratch: it is still in the world
 };
 
-/// What acts on a body besides its neighbours, for comparison.
+/// Influences on a body other than neighbours, for comparison.
 using btFemInfluences = std::array<double, 25>;
 
-/// What a body's rest depends on besides its nodes, as it was at the end of the last step, so that a change by the user
-/// is noticed. Kept for bodies that sleep or are about to; addresses are compared, never followed.
+/// State, besides the nodes, on which a body's rest depends, at the end of the last step, to detect changes by the
+/// user. Kept for bodies that sleep or are about to; addresses are compared, never dereferenced.
 struct btFemSleepRecord
 {
     bool m_asleep = false;    ///< at rest, with zeroed velocities
-    bool m_recorded = false;  ///< the members below are those of the last step's end
+    bool m_recorded = false;  ///< the members below are of the end of the last step
     btFemInfluences m_influences = {};
-    std::uint64_t m_targets = 0;     ///< mark of the targets of nodes and springs, and of initial stress
-    bullet_fem::Vec3 m_low, m_high;  ///< bounds of what may touch the body [m]
+    std::uint64_t m_targets = 0;     ///< hash of the targets of nodes and springs, and of initial stress
+    bullet_fem::Vec3 m_low, m_high;  ///< bounds of possible contacts [m]
     std::vector<btFemNeighbour> m_neighbours;
-    std::uint64_t m_forces = 0;   ///< mark of m_f as the step began
+    std::uint64_t m_forces = 0;   ///< hash of m_f at the beginning of the step
     double m_fastestSquared = 0;  ///< square of the speed of the fastest node in the last step [m2/s2]
 };

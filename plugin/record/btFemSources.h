@@ -11,24 +11,24 @@
 #include "bullet_fem/btFemReports.h"
 #include "bullet_fem/fem/factor/body_model.h"
 
-/// What a body that was baked is made of when it is set up.
+/// Set-up data of a baked body.
 struct btFemBaked
 {
     std::shared_ptr<const bullet_fem::BodyModel> m_model;
-    std::uint64_t m_restMark = 0;  ///< of the element matrices at the time: another rest shape has others
+    std::uint64_t m_restMark = 0;  ///< hash of the element matrices at that time, to detect another rest shape
 };
 
-/// What makes a btSoftBody the FEM body that it is, whatever its state: what Bullet's serializer does not know.
+/// The definition of a FEM body independent of its state, which Bullet's serializer omits.
 struct btFemDefinition
 {
     std::vector<bullet_fem::Vec3> m_restPositions;  ///< relative to node 0 [m]
-    bullet_fem::Vec3 m_restOrigin;                  ///< of node 0 when the body became FEM [m]
-    std::vector<std::array<int, 4>> m_tets;         ///< as the btSoftBody has them
+    bullet_fem::Vec3 m_restOrigin;                  ///< position of node 0 when the body became FEM [m]
+    std::vector<std::array<int, 4>> m_tets;         ///< elements in the order of m_tetras
     std::vector<double> m_filled;                   ///< fraction of every element in (0, 1]; empty if all are 1
-    double m_massScale = 1;                         ///< of a cage, > 0 [-]
+    double m_massScale = 1;                         ///< mass scale of a cage, > 0 [-]
     bullet_fem::ElementMaterials m_materials;
-    std::vector<double> m_mass;           ///< per node, of pinned ones too [kg]
-    std::vector<btScalar> m_inverseMass;  ///< likewise [1/kg]; 0: pinned
+    std::vector<double> m_mass;           ///< per node, pinned ones included [kg]
+    std::vector<btScalar> m_inverseMass;  ///< per node [1/kg]; 0: pinned
     double m_contactOffset = 0;           ///< [m]
     btFemDetail m_detail = btFemDetail::automatic;
 };

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-/// Wall time since it was made.
+/// Wall time since construction.
 class btFemStopwatch
 {
 public:

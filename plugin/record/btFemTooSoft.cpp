@@ -13,14 +13,14 @@ using namespace bullet_fem;
 namespace
 {
 
-// rho g H / E beyond which a body is told to be too soft [-]. Cubes on a plane with Hooke's law stand at .55 in meshes
-// of four and eight cells across, and have elements inside out at .7 (docs/manual.md, How stiff must my body be;
+// Ratio rho g H / E beyond which a body is reported as too soft [-]. Cubes on a plane with Hooke's law stand at .55 in
+// meshes of four and eight cells across, and have inverted elements at .7 (docs/manual.md, How stiff must my body be;
 // SoftPresets).
 constexpr double kMaxWeightStrain = 0.5;
 
 }  // namespace
 
-// Of the largest connected part [m].
+// Extent along gravity of the largest connected component [m].
 double btFemTooSoft::extentAlong(const TetMesh& mesh, const Vec3& direction)
 {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ double btFemTooSoft::weightStrain(const FemSoftBody& fem)
 bool btFemTooSoft::look(const FemSoftBody& fem)
 {
     const std::vector<double>& masses = fem.m_body.m_state.m_mass;
-    double mass = 0;  // of nodes that elements use
+    double mass = 0;  // mass of nodes that elements use
     for (std::size_t i = 0; i < masses.size(); ++i)
         if (!fem.m_body.m_model->mesh().isLoose(static_cast<int>(i))) mass += masses[i];
     const Vec3 gravity = fem.gravity();

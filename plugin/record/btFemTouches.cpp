@@ -12,17 +12,17 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr double kTouchSlack = 0.01;  // share of a mean edge
+constexpr double kTouchSlack = 0.01;  // share of a mean edge length
 
-/// The other side of contact points, which are listed object by object.
+/// The other object of contact points, which are grouped by object.
 struct Other
 {
     const btCollisionObject* m_object = nullptr;
-    int m_id = 0;          // in the broadphase
-    btScalar m_slack = 0;  // of the two [m]
+    int m_id = 0;          // broadphase id
+    btScalar m_slack = 0;  // maximum gap of a lasting contact of the two [m]
 };
 
-// Both of two FEM bodies must come to the same judgement.
+// Two FEM bodies must use equal values for their contact.
 Other otherOf(const btFemBodyRecord& record, const btCollisionObject* object, const btFemTogether& together)
 {
     Other other = {object, broadphaseId(*object), touchSlack(record)};

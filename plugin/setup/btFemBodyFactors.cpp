@@ -13,8 +13,8 @@
 
 using namespace bullet_fem;
 
-// Bullet tells the step that a body is set up in by predictMotion(float(timeStep)): in double precision, too, a factor
-// is made for the step of single precision, so that it has the same bits whoever asks for it first.
+// Bullet passes the step of set-up to predictMotion(float(timeStep)): in double precision, too, a factor is made for
+// the step in single precision, so that its bits do not depend on the caller that requests it first.
 double btFemBodySetUp::stepOfFactor(double step, const Material& material) const
 {
     return roundedToSingle(factorStep(step, m_numericalDamping, material));

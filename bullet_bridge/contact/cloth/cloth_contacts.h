@@ -43,7 +43,7 @@ public:
     void note(FemSoftBody& fem, btSoftBody& cloth, bool touches = true);
 
     /// Adds pairs of a body and the cloth among `bodies` that is attached to it, so that its springs are solved with
-    /// contact. Removes attachments to cloth that is gone, and then sets m_clothIsLost.
+    /// contact. Removes attachments to cloth that no longer exists, and then sets m_clothIsLost.
     void noteAttached(FemSoftBody& fem, const btAlignedObjectArray<btSoftBody*>& bodies);
 
     bool hasPairs() const { return !m_pairs.empty(); }

@@ -10,9 +10,9 @@
 namespace bullet_fem
 {
 
-/// Limits the paths of surface vertices by the planes that they touch as the step begins (carriers). A sliding vertex
-/// does not move into its carrier: its unconstrained path would hit side walls below the carrier's surface that it
-/// never reaches.
+/// Limits the paths of surface vertices by the planes of their contacts at the beginning of the step (carriers). A
+/// sliding vertex does not move into its carrier: its unconstrained path would hit side walls below the carrier's
+/// surface that it never reaches.
 class CarriedMotion
 {
 public:

@@ -57,7 +57,7 @@ void ContactMatcher::transferImpulses(const SearchScope& scope, ContactList& lis
     inheritImpulses(fem, list);
 }
 
-// Hands the impulses of contacts that are gone to new contacts nearby, object by object.
+// Transfers the impulses of contacts that no longer exist to new contacts nearby, object by object.
 void ContactMatcher::inheritImpulses(const FemSoftBody& fem, ContactList& list)
 {
     const std::vector<ContactOrigin>& origins = list.origins();

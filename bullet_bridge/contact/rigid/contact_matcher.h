@@ -21,9 +21,9 @@ public:
     /// Per vertex, the normal of that contact, or 0.
     const std::vector<Vec3>& heldNormal() const { return m_heldNormal; }
 
-    /// Takes over the impulses of the last step's contacts, sorted by origin as the list is. If a feature has several
-    /// contacts with a leaf, the one of most similar normal and position is taken. Impulses of contacts that are gone
-    /// go to new contacts nearby.
+    /// Matches the contacts to those of the last step and takes their impulses, sorted by origin as the list is. If a
+    /// feature has several contacts with a leaf, the one of most similar normal and position is taken. Impulses of
+    /// contacts that no longer exist are transferred to new contacts nearby.
     void transferImpulses(const SearchScope& scope, ContactList& list);
 
 private:

@@ -54,7 +54,7 @@ void FlushFilter::judge(const SearchScope& scope, const std::vector<ContactTarge
     if (isAny) addCarriers(scope, targets, near);
 }
 
-// Adds the contacts of vertices that touch as carriers.
+// Adds the present contacts of vertices as carriers.
 void FlushFilter::addCarriers(const SearchScope& scope, const std::vector<ContactTarget>& targets,
                               const ContactList& near)
 {

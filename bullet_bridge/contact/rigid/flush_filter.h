@@ -11,8 +11,8 @@
 namespace bullet_fem
 {
 
-/// Tells which contacts are of side walls that are flush with a surface that carries the point: they do not obstruct
-/// it. Convex shapes beyond the contact band are judged by their paths instead. Scratch grows with the contacts, never
+/// Finds the contacts with side walls that are flush with a surface that carries the point: they do not obstruct it.
+/// Convex shapes beyond the contact band are judged by their paths instead. Scratch grows with the contacts, never
 /// shrinks.
 class FlushFilter
 {
@@ -23,7 +23,7 @@ public:
     /// True if contact k of the near ones is flush.
     bool isFlush(std::size_t k) const { return m_flush[k] != 0; }
 
-    /// Carriers of the vertices: their contacts that touch and are not flush.
+    /// Carriers of the vertices: their present contacts that are not flush.
     const CarriedMotion& carried() const { return m_carried; }
 
     void reserve(std::size_t contacts);

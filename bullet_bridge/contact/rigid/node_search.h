@@ -15,7 +15,7 @@ namespace bullet_fem
 class NodeSearch
 {
 public:
-    /// Appends to `list`. The scope's culling must have been asked whether the surface meets the target's bounds.
+    /// Appends to `list`. Requires that the scope's culling has tested the surface against the target's bounds.
     void find(SearchScope& scope, const ContactTarget& target, ContactList& list);
 
     void reserve(std::size_t triangles) { m_underCorners.reserve(triangles); }

@@ -11,11 +11,11 @@ namespace bullet_fem
 /// Appends contacts of a fast target as the step begins: nodes only; edges and triangles are searched on their paths.
 void findTouchingNodes(SearchScope& scope, const ContactTarget& target, ContactList& near);
 
-/// Of a fast target: appends the contacts near it that are not flush, and those that the surface meets on its path.
+/// Fast target: appends the contacts near it that are not flush, and those that the surface meets on its path.
 void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactList& near, const FlushFilter& filter,
                  ContactList& list);
 
-/// Of a slow target: appends the contacts near it that are not flush; of candidates beyond the band, those that the
+/// Slow target: appends the contacts near it that are not flush, and among candidates beyond the band those that the
 /// surface meets on its path.
 void confirmOnPaths(const SearchScope& scope, const ContactTarget& target, const ContactList& near,
                     const FlushFilter& filter, ContactList& list);

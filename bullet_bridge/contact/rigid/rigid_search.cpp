@@ -219,7 +219,7 @@ void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigi
 }
 
 // True if a program's own concave shape reports triangles: it need not, as Bullet's height fields do not. A shape that
-// has reported some is not asked again while it has that address.
+// has reported some is not tested again while it has that address.
 bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
 {
     struct Any : btTriangleCallback

@@ -28,7 +28,7 @@ public:
     /// `step` [s].
     void find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts, RigidProxies& rigidProxies);
 
-    /// Flags of the last find(), one entry a body.
+    /// Flags of the last find(), one entry per body.
     const std::vector<ContactSearchReport>& reports() const { return m_reports; }
 
 private:
@@ -38,7 +38,7 @@ private:
     struct Overlap
     {
         int m_first, m_count;  // range of m_touched
-        bool m_alone;          // a shape must be asked on one thread only
+        bool m_alone;          // a shape must be queried on one thread only
     };
     struct ShapeRange
     {

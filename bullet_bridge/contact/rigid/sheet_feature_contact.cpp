@@ -39,8 +39,8 @@ bool isWithin(const SheetFeature& feature, double gap)
     return gap - feature.m_thickness <= feature.m_reach && gap >= -feature.m_depth;
 }
 
-/// True if corner q of a triangle is a tip: all triangles around it lie beyond it in `direction`. Of the triangles that
-/// share the corner, only that of the smallest index returns true.
+/// True if corner q of a triangle is a tip: all triangles around it lie beyond it in `direction`. True only for the
+/// triangle of smallest index among those that share the corner.
 bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& direction)
 {
     bool tip = true;
@@ -95,8 +95,8 @@ bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCr
     return isWithin(soft, crossing.m_gap);
 }
 
-/// True if the soup falls off on both sides of the edge at the crossing. Of the triangles that share the edge, only
-/// that of the smallest index returns true.
+/// True if the soup falls off on both sides of the edge at the crossing. True only for the triangle of smallest index
+/// among those that share the edge.
 bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossing)
 {
     bool ridge = true;

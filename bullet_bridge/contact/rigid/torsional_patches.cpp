@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kSameFace = 0.5;     // smallest cosine of the angle between normals of one patch
-constexpr double kTouches = 0.01;     // largest gap of a touching point without an impulse, over the mean edge
+constexpr double kTouches = 0.01;     // maximum gap of a contact point without an impulse, over the mean edge
 constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
                                       // spin
 
@@ -161,7 +161,7 @@ void TorsionalPatches::collectNodes(const Pair& pair, int patch, const ContactPr
 }
 
 // Adds the nodes that carry a point. A single node has no spin, so the triangles around it are added; a skin's points
-// hang on tetrahedra, whose nodes suffice.
+// are embedded in tetrahedra, whose nodes suffice.
 void TorsionalPatches::addNodes(const FemSoftBody& fem, const SurfacePoint& point)
 {
     const SurfaceFeatures& features = fem.m_surface.features();

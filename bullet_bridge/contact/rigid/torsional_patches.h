@@ -27,8 +27,8 @@ private:
     {
         Vec3 m_first;            // normal of its first contact [-]
         Vec3 m_normal;           // sum of normals, weighted by impulse [N s]
-        Vec3 m_touchingNormal;   // sum of the normals of touching points [-]
-        bool m_touches = false;  // some point touches
+        Vec3 m_touchingNormal;   // sum of the normals of contact points [-]
+        bool m_touches = false;  // some point is in contact
         int m_torsion = -1;      // index in the problem
     };
 

@@ -295,7 +295,7 @@ void NodeSurfaceSearch::dropLaterImpacts()
         if (hit.m_time > first) hit.m_dropped = true;
 }
 
-// Of faces that continue each other, keeps the nearest.
+// Keeps the nearest of faces that continue each other.
 void NodeSurfaceSearch::dropContinuations()
 {
     for (Hit& a : m_hits)

@@ -8,8 +8,8 @@
 namespace bullet_fem
 {
 
-/// Finds the contacts of a surface's nodes with the faces of another surface, or of the same one. The nearest point of
-/// the closed surface tells whether a node is inside. Then the contacts are:
+/// Finds the contacts of a surface's nodes with the faces of another surface or of its own. The nearest point of the
+/// closed surface tells whether a node is inside. Then the contacts are:
 ///   - outside: the faces in front of the node; several in a groove or corner, one of those that continue each other;
 ///   - inside: the nearest face that opposes the node's normal, and the next face where that one ends in a groove;
 ///   - over no face: the nearest edge or corner, if the direction to it separates the two surfaces there;

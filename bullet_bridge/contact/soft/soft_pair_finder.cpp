@@ -254,7 +254,7 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
     return found;
 }
 
-// Hands impulses of contacts that are gone to new contacts nearby.
+// Transfers impulses of contacts that no longer exist to new contacts nearby.
 void SoftPairFinder::inheritImpulses(const SoftPairSide& first, const SoftPairSide& second)
 {
     const auto isSecond = [](const SoftPairOrigin& origin) { return origin.m_kind == SoftPairKind::nodeOfSecond; };

@@ -4,8 +4,8 @@
 
 #include "bullet_fem/fem/common/vec3.h"
 
-/// Signed distances [m] of points p [m] to solids with sharp edges, centred at the origin, in closed form. Of several
-/// nearest points the first in the order of the axes is taken. Points in a centre or on an axis get a fixed unit
+/// Signed distances [m] of points p [m] to solids with sharp edges, centred at the origin, in closed form. The first in
+/// the order of the axes is taken among several nearest points. Points in a centre or on an axis get a fixed unit
 /// normal.
 namespace bullet_fem
 {

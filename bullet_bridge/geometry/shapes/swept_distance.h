@@ -60,7 +60,7 @@ ShapeLeaf movedBack(const ShapeLeaf& leaf, const RigidMotion& motion, double ste
 /// True if the relative motion within the step is so large that gaps and normals of its beginning are not valid at its
 /// end: half a surface edge or half the shape's thickness, where shapes count as at least a fifth of an edge thick.
 /// `speed` is the largest speed of the surface relative to the shape's centre [m/s], `edge` the surface's mean edge
-/// [m]. False for planes, whose normal is the same everywhere.
+/// [m]. False for planes, whose normal is constant.
 bool isFast(const SweptShape& shape, double speed, double edge);
 
 /// True if gravity [m/s2] moves a resting body so far within the step. Its fall then counts as motion: in free motion

@@ -112,8 +112,8 @@ public:
     }
 
     /// The triangle nearest to p at the start without those for which skip(triangle) is true; -1 if none is closer than
-    /// `most` [m], which may be infinite. `nearest` is its nearest point. `guess`, a triangle that may be near (-1:
-    /// none), affects the speed but not the result.
+    /// `most` [m], which may be infinite. `nearest` is its nearest point. `guess`, a triangle near p as initial guess
+    /// (-1: none), affects the speed but not the result.
     template <class Skip>
     int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest, int guess = -1) const
     {

@@ -8,13 +8,13 @@
 namespace bullet_fem
 {
 
-/// Bullet's vector in double.
+/// Converts from Bullet's vector to double precision.
 inline Vec3 vec3(const btVector3& v)
 {
     return {double(v.x()), double(v.y()), double(v.z())};
 }
 
-/// A vector in Bullet's precision.
+/// Converts to Bullet's vector and precision.
 inline btVector3 bulletVector(const Vec3& v)
 {
     return {btScalar(v.x), btScalar(v.y), btScalar(v.z)};

@@ -9,23 +9,23 @@
 namespace bullet_fem
 {
 
-/// A body at one instant, as the writers take it. Keep one a body, and give it new values every frame: positions, and
-/// whatever else shall be shown; an empty array is not written. All in the world's axes.
+/// A body at one instant, the input of the file writers. Keep one object per body and update it every frame; empty
+/// arrays are not written. All quantities in world axes.
 struct BodyFrame
 {
-    int m_id = 0;                            ///< tells bodies apart in the files; any number
-    std::vector<Vec3> m_positions;           ///< of the nodes [m]
-    std::vector<Tet> m_tets;                 ///< may be empty, as of a rigid body
-    std::vector<Triangle> m_triangles;       ///< the surface, counter-clockwise seen from outside
-    std::vector<Vec3> m_displacement;        ///< a node [m], from wherever the program likes
-    std::vector<Vec3> m_velocity;            ///< a node [m/s]
-    std::vector<Vec3> m_contactForce;        ///< a node [N]
-    std::vector<Vec3> m_reactionForce;       ///< a node: by which it is held [N]
-    std::vector<Stress> m_nodeStress;        ///< a node [Pa]
-    std::vector<Stress> m_tetStress;         ///< a tetrahedron [Pa]
-    std::vector<double> m_tetPlasticStrain;  ///< a tetrahedron, equivalent [-]
-    std::vector<int> m_tetRegion;            ///< a tetrahedron: the label of its region, as TetMeshFile::m_regions
-    std::vector<double> m_tetActivation;     ///< a tetrahedron: the stress along its fibres [Pa]
+    int m_id = 0;                            ///< identifies the body in the files; any number
+    std::vector<Vec3> m_positions;           ///< node positions [m]
+    std::vector<Tet> m_tets;                 ///< tetrahedra; may be empty, as for a rigid body
+    std::vector<Triangle> m_triangles;       ///< surface triangles, counter-clockwise seen from outside
+    std::vector<Vec3> m_displacement;        ///< one per node, from any reference position [m]
+    std::vector<Vec3> m_velocity;            ///< one per node [m/s]
+    std::vector<Vec3> m_contactForce;        ///< one per node [N]
+    std::vector<Vec3> m_reactionForce;       ///< force of the support on the body, one per node [N]
+    std::vector<Stress> m_nodeStress;        ///< one per node [Pa]
+    std::vector<Stress> m_tetStress;         ///< one per tetrahedron [Pa]
+    std::vector<double> m_tetPlasticStrain;  ///< equivalent plastic strain, one per tetrahedron [-]
+    std::vector<int> m_tetRegion;            ///< region label, one per tetrahedron, as TetMeshFile::m_regions
+    std::vector<double> m_tetActivation;     ///< stress along its fibres, one per tetrahedron [Pa]
 };
 
 }  // namespace bullet_fem

@@ -8,13 +8,13 @@
 namespace bullet_fem
 {
 
-/// The colour map viridis, from dark violet over teal to yellow: equal steps look equally large, also in grey and to
-/// the colour-blind. `share` is in [0, 1] of the highest value; values beyond have the colour of the nearer end, NaN
-/// that of 0. Red, green and blue in [0, 1], as screens take them (sRGB). By Smith and van der Walt, 2015, who
-/// dedicated it to the public domain (CC0).
+/// The perceptually uniform colour map viridis, from dark violet over teal to yellow, also suited to greyscale and
+/// colour blindness. `share` is in [0, 1]; values outside are clamped, NaN gives the colour of 0. Returns red, green
+/// and blue in [0, 1], encoded for screens (sRGB). By Smith and van der Walt, 2015, who dedicated it to the public
+/// domain (CC0).
 BULLETFEM_API Vec3 viridis(double share);
 
-/// The same as light (linear), which is what glTF calculates with.
+/// Converts an sRGB colour, components in [0, 1], to linear components, which glTF uses.
 BULLETFEM_API Vec3 linearColour(const Vec3& screenColour);
 
 }  // namespace bullet_fem

@@ -11,9 +11,9 @@
 namespace bullet_fem
 {
 
-/// Scratch memory for solving bodies of one model side by side, sixteen at a time: some 3 KB an element, times the
-/// number of threads that solve so at once. Allocated when a model first needs it, kept as long as the model exists,
-/// and reused. May be shared by threads.
+/// Scratch memory for solving bodies of one model side by side, sixteen at a time: some 3 KB per element and per thread
+/// that does so at once. Allocated when a model first needs it, kept as long as the model exists, and reused. May be
+/// shared by threads.
 class BULLETFEM_API BatchMemory
 {
 public:

@@ -36,11 +36,11 @@ struct BULLETFEM_API Chamber
     /// triangles.
     void validate(const TetMesh& mesh) const;
 
-    /// Throws std::invalid_argument, naming the value and the remedy, if the volume at positions x [m], one a node, is
-    /// not positive.
+    /// Throws std::invalid_argument, naming the value and the remedy, if the volume at positions x [m], one per node,
+    /// is not positive.
     void validateVolume(const std::vector<Vec3>& x) const;
 
-    /// Enclosed volume [m3] at positions x [m], one a node; negative if the surface is inside out.
+    /// Enclosed volume [m3] at positions x [m], one per node; negative if the surface is inside out.
     double volume(const std::vector<Vec3>& x) const;
 
     /// Gauge pressure [Pa] at a volume [m3]. That of a sealed gas is limited to 1e8 Pa, also for volumes of zero or
@@ -54,7 +54,7 @@ struct CablePoint
     std::array<int, 4> m_nodes = {};                 ///< node indices; ignored where the weight is 0
     std::array<double, 4> m_weights = {1, 0, 0, 0};  ///< [-], sum 1
 
-    Vec3 at(const std::vector<Vec3>& u) const;  ///< interpolation of u, one value a node
+    Vec3 at(const std::vector<Vec3>& u) const;  ///< interpolation of u, one value per node
 };
 
 /// A cable, or tendon, through points of the body, in which it slides without friction: its tension is uniform. It
@@ -71,7 +71,7 @@ struct BULLETFEM_API Cable
     /// node outside the mesh, weights whose sum is not 1, or points in several connected components of the mesh.
     void validate(const TetMesh& mesh) const;
 
-    /// Length [m] at positions x [m], one a node.
+    /// Length [m] at positions x [m], one per node.
     double length(const std::vector<Vec3>& x) const;
 
     /// Tension [N], >= 0, at a length [m].
@@ -84,7 +84,7 @@ struct BULLETFEM_API Fibres
 {
     int m_id = 0;                    ///< identifier set by the caller
     std::vector<int> m_elements;     ///< element indices of the mesh; empty: all
-    std::vector<Vec3> m_directions;  ///< f in the rest shape, of any nonzero length: one for all, or one an element
+    std::vector<Vec3> m_directions;  ///< f in the rest shape, of any nonzero length: one for all, or one per element
     double m_activation = 0;         ///< a [Pa], in [-1e13, 1e13]; positive contracts
 
     /// Throws std::invalid_argument, naming value, range and remedy, on elements or values out of range.

@@ -24,7 +24,7 @@ struct BodySnapshot
     std::vector<double> m_mass;                        ///< node masses [kg]
     std::vector<unsigned char> m_fixed;                ///< 1: the velocity is prescribed
     std::array<std::vector<Vec3>, 2> m_lastIncrement;  ///< [m/s]
-    std::vector<Quaternion> m_elementRotation;         ///< one an element, then padding of the last kernel block
+    std::vector<Quaternion> m_elementRotation;         ///< one per element, then padding of the last kernel block
     Mat3 m_bodyRotation;                               ///< rotation of Warp::global
     std::vector<SymmetricTensor> m_initialStress;      ///< [Pa]
     std::uint64_t m_initialStressChanges = 0;          ///< number of changes of m_initialStress

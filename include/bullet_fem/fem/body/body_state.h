@@ -15,7 +15,7 @@ namespace bullet_fem
 {
 
 /// The variable part of a body: positions, velocities, and the rotations and history variables that the next step
-/// starts from. Arrays have one entry a node, or one an element.
+/// starts from. Arrays have one entry per node, or one per element.
 struct BULLETFEM_API BodyState
 {
     /// At rest in the model's rest shape, with its masses and fixed nodes. Allocates.

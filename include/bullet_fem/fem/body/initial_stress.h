@@ -17,7 +17,7 @@ constexpr double kMaxInitialStress = 1e13;
 
 /// Sets the initial stress sigma_0 [Pa] of a body's elements, tension positive: thermal, active or residual stress, in
 /// the frame that rotates with the element, that is in the axes of the rest shape. The total stress is then sigma = R
-/// (2 mu eps + lambda tr(eps) I + sigma_0) R^T (docs/theory.md, Initial stress). One tensor an element in the mesh's
+/// (2 mu eps + lambda tr(eps) I + sigma_0) R^T (docs/theory.md, Initial stress). One tensor per element in the mesh's
 /// order, or none to clear it. It may change in every step, because neither the stiffness nor its factor depend on it.
 /// Allocates when a body that had none gets some. Throws std::invalid_argument, naming the value, on a wrong number of
 /// tensors and on a component outside [-1e13, 1e13]; the body is unchanged then.

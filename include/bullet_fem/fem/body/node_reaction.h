@@ -7,12 +7,12 @@
 namespace bullet_fem
 {
 
-/// The force by which a fixed node is held.
+/// The reaction force at a fixed node.
 struct NodeReaction
 {
     int m_node = 0;  ///< in [0, n)
-    Vec3 m_point;    ///< where it acts: the middle of the node's way in the step [m]
-    Vec3 m_force;    ///< on the body, in the world's axes: impulse over h, the mean of the step [N]
+    Vec3 m_point;    ///< point of action: the midpoint of the node's motion in the step [m]
+    Vec3 m_force;    ///< force on the body in world axes, mean over the step: impulse / h [N]
 };
 
 }  // namespace bullet_fem

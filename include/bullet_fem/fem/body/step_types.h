@@ -16,7 +16,7 @@ struct Body;
 /// How the rest factor rotates with the body.
 enum class Warp
 {
-    nodal,  ///< one rotation a node: fewest iterations, the default
+    nodal,  ///< one rotation per node: fewest iterations, the default
     global  ///< one rotation for the body [Garcia et al. 2006]; exact for rigid motion
 };
 
@@ -68,7 +68,7 @@ struct FreeMotion
     Body* m_body = nullptr;   ///< not null
     StepSettings m_settings;  ///< settings of its step
     SolveReport m_report;     ///< output
-    /// Expected contact impulses, one a node [N s]: solved for together with the loads, with the body's rigid motion
+    /// Expected contact impulses, one per node [N s]: solved for together with the loads, with the body's rigid motion
     /// continued as initial guess. Must equal ContactBody::m_predicted. Null: none.
     const std::vector<Vec3>* m_predicted = nullptr;
     double m_predictedFloor = 1;  ///< lower bound of |b| as a share of their norm, for the tolerance [-], in [0, 1]
@@ -78,7 +78,7 @@ struct FreeMotion
 struct ImpulseResponse
 {
     Body* m_body = nullptr;                         ///< not null
-    const std::vector<Vec3>* m_impulses = nullptr;  ///< one a node [N s]
+    const std::vector<Vec3>* m_impulses = nullptr;  ///< one per node [N s]
     StepSettings m_settings;                        ///< settings of its step
     double m_floor = 0;                             ///< lower bound of |b| for the tolerance [N s], >= 0
     bool m_steady = false;  ///< initial guess: the body ends with the velocities it began the step with

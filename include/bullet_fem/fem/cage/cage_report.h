@@ -24,8 +24,9 @@ struct CageReport
     double m_cellSize = 0;      ///< edge of a lattice cube [m]
     double m_smallestCell = 0;  ///< smallest element: edge of a cube of six times its volume [m]
     double m_largestCell = 0;   ///< largest element [m]; both equal m_cellSize in ungraded cages
-    double m_cellsAcross = 0;   ///< cells across thin parts aimed at; fewer than asked for if m_targetTets is low
-    int m_levels = 0;           ///< halvings of m_cellSize in the smallest cell, rounded up
+    /// Target number of cells across thin parts; below m_cellsAcross of the settings if m_targetTets is low.
+    double m_cellsAcross = 0;
+    int m_levels = 0;                          ///< halvings of m_cellSize in the smallest cell, rounded up
     std::array<int, 7> m_levelTets{};          ///< number of elements by halvings
     std::array<int, 10> m_qualityHistogram{};  ///< number of elements by mean ratio: [0, .1), [.1, .2), ... [.9, 1]
     double m_leastQuality = 0;                 ///< minimum mean ratio of an element

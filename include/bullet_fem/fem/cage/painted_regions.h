@@ -16,7 +16,7 @@ namespace bullet_fem
 /// element takes the most frequent label among the vertices in it, the lowest in a tie. An element without vertices
 /// takes the label of the nearest element with some, by the length of the path through element centres, so that labels
 /// do not jump between limbs. Elements of connected components without vertices take the surface's first label.
-/// `embedding`: one entry a vertex. Returns one label an element, or nothing if the surface has no labels. Throws
+/// `embedding`: one entry per vertex. Returns one label per element, or nothing if the surface has no labels. Throws
 /// std::invalid_argument if the number of labels or of embeddings is not that of the vertices. Allocates.
 BULLETFEM_API std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
                                               const std::vector<Embedding>& embedding);

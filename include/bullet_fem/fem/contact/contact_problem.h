@@ -14,65 +14,71 @@ namespace bullet_fem
 
 class ComplianceCache;
 
-/// Cache of the surface compliance of a model, for ContactSolver::solve; bodies of one model may share it on one
-/// thread. `model` must not be null.
+/// Creates a cache of the compliance between a model's surface nodes, for ContactSolver::solve. Bodies of one model may
+/// share it on one thread. `model` must not be null. Allocates.
 BULLETFEM_API std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model);
 
-/// The same for contact points on other nodes than those of the mesh's surface: each once, in [0, n).
+/// Creates a cache of the compliance between the given nodes of a model, not null, for contact points on other nodes
+/// than those of the mesh's surface. `nodes`: distinct indices in [0, n). Allocates.
 BULLETFEM_API std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_ptr<const BodyModel> model,
                                                                    std::vector<int> nodes);
 
-/// A rigid body as the contact solver sees it.
+/// A rigid body in the contact solver.
 struct RigidProxy
 {
-    Vec3 m_inverseMass;       ///< along the world axes [1/kg]; 0 for static and kinematic ones
-    Mat3 m_inverseInertia;    ///< world axes [1/(kg m2)]
-    Vec3 m_center;            ///< centre of mass [m]
-    Vec3 m_linearVelocity;    ///< [m/s]; solve() adds what the contacts do
-    Vec3 m_angularVelocity;   ///< [rad/s]; likewise
-    Vec3 m_pushLinear;        ///< written by solve(): velocity of position correction alone, never kept as motion [m/s]
-    Vec3 m_pushAngular;       ///< likewise [rad/s]
-    Vec3 m_angularImpulse;    ///< written by solve(): pays back the angular momentum that corrections made [N m s]
+    Vec3 m_inverseMass;      ///< inverse mass along the world axes [1/kg]; 0 for static and kinematic bodies
+    Mat3 m_inverseInertia;   ///< inverse inertia in world axes [1/(kg m2)]
+    Vec3 m_center;           ///< centre of mass, world [m]
+    Vec3 m_linearVelocity;   ///< velocity of the centre [m/s]; solve() adds the response to contacts and joints
+    Vec3 m_angularVelocity;  ///< angular velocity [rad/s]; solve() adds the response to contacts and joints
+    /// Written by solve(): velocity of the position correction of this step, not kept as motion [m/s].
+    Vec3 m_pushLinear;
+    /// Written by solve(): angular velocity of the position correction, not kept as motion [rad/s].
+    Vec3 m_pushAngular;
+    Vec3 m_angularImpulse;    ///< written by solve(): compensates the angular momentum of position corrections [N m s]
     int m_firstResponse = 0;  ///< its responses are m_responses[m_firstResponse ... + m_responseCount) of the problem
-    /// > 0: they tell what impulses on it do, and inverse mass and inertia only that it moves.
+    /// Number of its responses. If > 0, these give the effect of impulses on it, and inverse mass and inertia only tell
+    /// that it can move.
     int m_responseCount = 0;
-    Vec3 m_pushImpulse;         ///< written by solve() if it has responses: what makes the push [N s]
-    Vec3 m_pushAngularImpulse;  ///< likewise, about its centre [N m s]
-    Vec3 m_accumulatedImpulse;  ///< written by the solver if it has responses: what contacts and joints gave it so far
-                                ///< [N s]
-    Vec3 m_accumulatedAngularImpulse;  ///< likewise, about its centre [N m s]
+    Vec3 m_pushImpulse;         ///< written by solve() if it has responses: impulse of the position correction [N s]
+    Vec3 m_pushAngularImpulse;  ///< angular impulse about its centre [N m s]
+    /// Written by the solver if it has responses: impulse of contacts and joints so far [N s].
+    Vec3 m_accumulatedImpulse;
+    Vec3 m_accumulatedAngularImpulse;  ///< angular impulse about its centre [N m s]
 
     /// True if an impulse moves or turns it.
     bool canMove() const { return dot(m_inverseMass, m_inverseMass) > 0 || squaredNorm(m_inverseInertia) > 0; }
-    /// Of the rigid motion at a point [m/s].
+    /// Velocity of the rigid motion at a point [m] in the world [m/s].
     Vec3 velocityAt(const Vec3& point) const { return m_linearVelocity + cross(m_angularVelocity, point - m_center); }
 };
 
-/// What an impulse on one rigid proxy does to another that hangs on the same joints, or to itself: links of an
-/// articulated body, which no mass and inertia describe. For impulses f and angular impulses t about the one's centre,
-/// the other's centre gets m_linear f + m_linearOfAngular t, its spin m_angularOfLinear f + m_angular t. World axes.
+/// Response of one rigid proxy to an impulse on another or on itself: links of an articulated body, which no mass and
+/// inertia describe. Impulses f and angular impulses t about the centre of the one change the velocity of the other's
+/// centre by m_linear f + m_linearOfAngular t, and its angular velocity by m_angularOfLinear f + m_angular t. World
+/// axes.
 struct RigidResponse
 {
-    int m_rigidProxy = 0;    ///< index of the one that moves
+    int m_rigidProxy = 0;    ///< index of the responding proxy
     Mat3 m_linear;           ///< [1/kg]
     Mat3 m_linearOfAngular;  ///< [1/(kg m)]
     Mat3 m_angularOfLinear;  ///< [1/(kg m)]
     Mat3 m_angular;          ///< [1/(kg m2)]
 };
 
-/// A point of a soft surface: a weighted sum of nodes of a body, of those that its compliance cache serves. An impulse
-/// on it is shared out by the same weights, and so has no other moment than that of the impulse at the point.
+/// A point of a soft surface: a weighted mean of nodes of a body that its compliance cache serves. An impulse on it is
+/// distributed by these weights, so its moment is that of the impulse at the point.
 struct SurfacePoint
 {
-    static constexpr int kMaxNodes = 12;  ///< three corners of a triangle, each in a tetrahedron
+    static constexpr int kMaxNodes = 12;  ///< three corners of an embedded triangle, each in a tetrahedron
     [[deprecated("kMaxNodes")]] static constexpr int kMostNodes = kMaxNodes;
 
-    int m_body = -1;                                   ///< index into the bodies of the solve; -1: none
-    std::array<int, kMaxNodes> m_nodes = {0, 0, 0};    ///< of a surface of the mesh its triangle's; may repeat
-    std::array<double, kMaxNodes> m_weights = {1, 0};  ///< [-], sum 1
-    int m_count = 3;                                   ///< nodes that it has, in [1, kMaxNodes]
+    int m_body = -1;  ///< index into the bodies of the solve; -1: none
+    /// Node indices; of a boundary point the nodes of its triangle; may repeat.
+    std::array<int, kMaxNodes> m_nodes = {0, 0, 0};
+    std::array<double, kMaxNodes> m_weights = {1, 0};  ///< weights [-], sum 1
+    int m_count = 3;                                   ///< number of nodes, in [1, kMaxNodes]
 
-    /// What the nodes have, at the point.
+    /// Interpolation of nodal values, one per node of the body.
     Vec3 of(const std::vector<Vec3>& nodeValues) const
     {
         const auto part = [&](std::size_t a)
@@ -83,155 +89,165 @@ struct SurfacePoint
     }
 };
 
-/// Where a soft surface touches a rigid proxy, another soft body or itself, or may do so within the step.
+/// A contact of a soft surface with a rigid proxy, another soft body or itself, present or possible within the step.
 struct ContactPoint
 {
-    SurfacePoint m_soft;    ///< feels the impulse
-    SurfacePoint m_other;   ///< feels the opposite, where the other side is soft; its m_body is -1 otherwise
-    int m_rigidProxy = -1;  ///< index into the rigid proxies of the solve, where the other side is rigid; -1 otherwise
-    Vec3 m_point;     ///< where both sides feel the impulse: the soft point, between two soft ones their middle [m]
-    Vec3 m_approach;  ///< added to m_point for the arm of a rigid proxy that it meets later in the step: what they come
-                      ///< closer until then [m]
-    Vec3
-        m_patch;  ///< added to m_point for the levers of both sides: to where the patch, as it moves, has come from [m]
-    bool m_isMetLater = false;  ///< the rigid proxy's arm is to m_point + m_patch + m_approach, whatever the soft one's
-    Vec3 m_arm;                 ///< of the rigid proxy, from its centre [m]: part of the answer
-    Vec3 m_normal;              ///< unit [-], from the other side to m_soft
-    double m_gap = 0;           ///< signed distance at the start [m]; negative inside
-    double m_slop = 0;          ///< penetration that is left alone [m], >= 0
-    double m_hardness = 1;      ///< factor on ContactSettings::m_pushFraction [-], >= 0
-    double m_friction = 0;      ///< Coulomb's coefficient [-], >= 0
-    double m_restitution = 0;   ///< share of the speed of an impact that is given back [-], in [0, 1]; not read by
-                                ///< the solver
-    double m_stiffness = 0;     ///< of a contact spring in place of the rigid contact [N/m], >= 0; 0: rigid
-    double m_damping = 0;       ///< of that spring [N s/m], >= 0
-    Vec3 m_impulse;             ///< on m_soft [N s]: a guess before, the answer after
-    Vec3 m_slip;  ///< displacement of a point that sticks, in the tangent plane [m]: taken back within some steps; that
-                  ///< of the last step before, the new one after
+    SurfacePoint m_soft;  ///< side that receives m_impulse
+    /// Soft other side, which receives the opposite impulse; m_body is -1 if the other side is rigid.
+    SurfacePoint m_other;
+    int m_rigidProxy = -1;  ///< rigid other side: index into the rigid proxies of the solve; -1 if it is soft
+    /// Point at which the impulse acts on both sides: the soft point, between two soft ones their midpoint [m].
+    Vec3 m_point;
+    /// Added to m_point for the lever arm of a rigid proxy that is met later in the step: the approach until then [m].
+    Vec3 m_approach;
+    /// Added to m_point for the lever arms of both sides: the offset to the origin of a moving contact patch [m].
+    Vec3 m_patch;
+    /// The rigid proxy's arm reaches to m_point + m_patch + m_approach, whatever the soft side's.
+    bool m_isMetLater = false;
+    Vec3 m_arm;                ///< output: lever arm of the rigid proxy, from its centre [m]
+    Vec3 m_normal;             ///< unit normal [-], from the other side to m_soft
+    double m_gap = 0;          ///< signed distance at the start [m]; negative inside
+    double m_slop = 0;         ///< penetration without position correction [m], >= 0
+    double m_hardness = 1;     ///< factor on ContactSettings::m_pushFraction [-], >= 0
+    double m_friction = 0;     ///< Coulomb friction coefficient [-], >= 0
+    double m_restitution = 0;  ///< coefficient of restitution [-], in [0, 1]; not read by the solver
+    double m_stiffness = 0;    ///< stiffness of a contact spring instead of rigid contact [N/m], >= 0; 0: rigid
+    double m_damping = 0;      ///< damping of the contact spring [N s/m], >= 0
+    Vec3 m_impulse;            ///< impulse on m_soft [N s]: input is the warm start, output the solution
+    /// Tangential displacement of a sticking point [m], corrected within some steps: input is that of the previous
+    /// step, output the new one.
+    Vec3 m_slip;
 };
 
-/// Where a rigid proxy touches another, or something immovable: a row that keeps the two apart. Its impulses are part
-/// of the rigid proxies' new velocities, and told nowhere else.
+/// A non-penetration row between a rigid proxy and another or an immovable object. Its impulses appear only in the
+/// rigid proxies' new velocities.
 struct RigidContact
 {
     int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
-    int m_other = -1;         ///< likewise; -1: immovable
-    Vec3 m_arm;               ///< from its centre to where they touch [m]
-    Vec3 m_otherArm;          ///< likewise from the other's; not read where that is immovable
-    Vec3 m_normal;            ///< unit [-], from the other to the rigid proxy
+    int m_other = -1;         ///< index of the other rigid proxy; -1: immovable
+    Vec3 m_arm;               ///< lever arm of the contact point from the proxy's centre [m]
+    Vec3 m_otherArm;          ///< lever arm from the other proxy's centre [m]; not read if that is immovable
+    Vec3 m_normal;            ///< unit normal [-], from the other to the rigid proxy
     double m_gap = 0;         ///< signed distance [m]; negative inside
-    bool m_moves = true;      ///< the velocities of the solve will bring them together or apart from there
-    double m_leastSpeed = 0;  ///< at which they part along the normal, at least; < 0: they may close [m/s]
-    Vec3 m_otherVelocity;     ///< of what is immovable, where they touch; m_leastSpeed is relative to it, and so is the
-                              ///< sliding that friction acts against [m/s]
-    double m_friction = 0;    ///< Coulomb's coefficient [-], >= 0
-    bool m_pushOnly = false;  ///< it counts for position corrections alone
-    bool m_isSupport = false;  ///< the other stands still, whatever happens
+    bool m_moves = true;      ///< the gap changes by the velocities of the solve
+    double m_leastSpeed = 0;  ///< minimum separation speed along the normal [m/s]; < 0: approach is allowed
+    /// Velocity of an immovable other at the contact point [m/s]; m_leastSpeed and the sliding velocity of friction are
+    /// relative to it.
+    Vec3 m_otherVelocity;
+    double m_friction = 0;     ///< Coulomb friction coefficient [-], >= 0
+    bool m_pushOnly = false;   ///< the row takes part in position correction only
+    bool m_isSupport = false;  ///< the other never moves, whatever the impulses
 };
 
 using RigidTouch [[deprecated("RigidContact")]] = RigidContact;
 
-/// A body with its compliance cache. Neither may be null, and both must live until the solve is over.
+/// A body with its compliance cache. Neither may be null; both must live until the solve is over.
 struct ContactBody
 {
-    Body* m_body = nullptr;                   ///< has had solveFreeMotion
-    ComplianceCache* m_compliance = nullptr;  ///< of the body's model
-    /// FreeMotion::m_predicted, [N s], one a node: what it has in its velocities of the impulses that its contacts
-    /// start with. Null: nothing.
+    Body* m_body = nullptr;                   ///< body after solveFreeMotion
+    ComplianceCache* m_compliance = nullptr;  ///< cache of the body's model
+    /// FreeMotion::m_predicted [N s], one per node: the share of the initial contact impulses that is included in the
+    /// body's velocities. Null: none.
     const std::vector<Vec3>* m_predicted = nullptr;
 };
 
-/// How a ContactProblem is solved.
+/// Settings of a ContactSolver.
 struct ContactSettings
 {
-    StepSettings m_step;   ///< of the corrective solves
-    int m_rounds = 1;      ///< corrective solves at least, in [1, 100]
-    int m_maxRounds = 10;  ///< and at most, >= m_rounds, while the error exceeds m_tolerance; twice as many for joints
-    int m_sweeps = 50;     ///< sweeps a round at most, in [1, 1000]
-    /// Error of velocities at which contact ends, as a share of the speed that the loads give a body in a step, or of
-    /// what contact changes at first if that is more [-], > 0. At most what a thousandth of
-    /// an element's edge a step is, where that is finer. Joints are solved to 1e-3 of the speed that loads give, and of
-    /// the impulses on their bodies.
+    StepSettings m_step;  ///< settings of the corrective solves
+    int m_rounds = 1;     ///< minimum number of outer iterations, in [1, 100]
+    /// Maximum number, >= m_rounds, while the error exceeds m_tolerance; twice as many for joints.
+    int m_maxRounds = 10;
+    int m_sweeps = 50;  ///< maximum number of sweeps per outer iteration, in [1, 1000]
+    /// Velocity error at which outer iterations end, relative to the speed that the loads give a body in a step, or to
+    /// the initial velocity change by contact if that is larger [-], > 0. Limited to the speed of 5e-4 of the shortest
+    /// mean element edge per step. Joints are solved to 1e-3 of the speed that loads give, and of the impulses on their
+    /// bodies.
     double m_tolerance = 3e-5;
-    bool m_untilSolved = false;    ///< rounds go on to m_maxRounds even where one hardly lowers the error
-    int m_denseLimit = 400;        ///< points of a body up to which its compliance is formed as a dense matrix, >= 0
-    double m_pushFraction = 0.2;   ///< share of a penetration that is taken back a step [-], in [0, 1]
-    double m_maxPushVelocity = 1;  ///< speed at which penetration is taken back at most [m/s], >= 0
-    double m_slipFraction = 0.2;   ///< share of the slip of a sticking point that is taken back a step [-], in [0, 1]
+    bool m_untilSolved = false;    ///< outer iterations continue to m_maxRounds even if they hardly lower the error
+    int m_denseLimit = 400;        ///< maximum number of points of a body for a dense compliance matrix, >= 0
+    double m_pushFraction = 0.2;   ///< share of a penetration corrected per step [-], in [0, 1]
+    double m_maxPushVelocity = 1;  ///< maximum speed of penetration correction [m/s], >= 0
+    double m_slipFraction = 0.2;   ///< share of the slip of a sticking point corrected per step [-], in [0, 1]
 };
 
-/// What a solve took, and how good it is.
+/// Statistics of a solve.
 struct ContactReport
 {
-    int m_contacts = 0;       ///< points given
-    int m_rounds = 0;         ///< corrective solves made, each of all bodies
-    int m_sweeps = 0;         ///< in all rounds
+    int m_contacts = 0;       ///< number of contact points
+    int m_rounds = 0;         ///< outer iterations, each with a corrective solve of all bodies
+    int m_sweeps = 0;         ///< number of sweeps in all outer iterations
     int m_iterations = 0;     ///< conjugate gradient iterations of all corrective solves of all bodies
     double m_violation = 0;   ///< largest speed at which a contact still closes faster than its gap allows [m/s], >= 0
     bool m_converged = true;  ///< all corrective solves met their tolerance
 };
 
-/// One end of a joint: a point or a group of nodes of a soft body, or a rigid body.
+/// One side of a joint: a point or a group of nodes of a soft body, or a rigid body.
 struct JointEnd
 {
-    int m_body = -1;         ///< soft end: index into the bodies of the solve
-    int m_first = 0;         ///< soft end: its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
-    int m_count = 0;         ///< and its velocity is the sum of m_handleBlocks times theirs
-    int m_rigidProxy = -1;   ///< rigid end: index into the rigid proxies; an end of neither is fixed in the world
-    Vec3 m_point;            ///< rigid end: where it is held [m]
-    bool m_angular = false;  ///< rigid end: its velocity is the angular one, and impulses are angular
+    int m_body = -1;  ///< soft side: index into the bodies of the solve
+    int m_first = 0;  ///< soft side: its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
+    int m_count = 0;  ///< number of nodes; the side's velocity is the sum of m_handleBlocks times theirs
+    /// Rigid side: index into the rigid proxies. A side that is neither soft nor rigid is fixed in the world.
+    int m_rigidProxy = -1;
+    Vec3 m_point;            ///< rigid side: point of action [m]
+    bool m_angular = false;  ///< rigid side: its velocity is the angular one, and impulses are angular
 };
 
-/// Holds the relative velocity of two ends, a - b, at a wanted value along three axes: anchors, attachments, motors.
+/// Constrains the relative velocity of two sides, a - b, to a target along three axes: anchors, attachments, motors.
 struct Joint
 {
     static constexpr double kUnlimited = 1e300;  ///< as m_limit: no limit [N s] or [N m s]
 
-    JointEnd m_a;  ///< what it joins; the impulse acts on it
-    JointEnd m_b;  ///< what it is joined to; the opposite impulse acts on it
+    JointEnd m_a;  ///< first side; m_impulse acts on it
+    JointEnd m_b;  ///< second side; the opposite impulse acts on it
     std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal [-]
-    Vec3 m_wanted;  ///< relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
+    Vec3 m_wanted;  ///< target of the relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
     Vec3 m_limit = {kUnlimited, kUnlimited,
-                    kUnlimited};       ///< largest impulse along every axis [N s] or [N m s], >= 0; 0: axis is free
-    double m_maxImpulse = kUnlimited;  ///< largest impulse of all axes together [N s] or [N m s], > 0
-    double m_compliance = 0;  ///< compliance added, of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
-    double m_softness = 0;    ///< compliance added, as a share of the joint's own [-], >= 0; 0: rigid
-    Vec3 m_impulse;           ///< on end a, world axes [N s] or [N m s]: a guess before, the answer after
+                    kUnlimited};       ///< maximum impulse along every axis [N s] or [N m s], >= 0; 0: the axis is free
+    double m_maxImpulse = kUnlimited;  ///< maximum norm of the impulse [N s] or [N m s], > 0
+    double m_compliance = 0;           ///< added compliance of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
+    double m_softness = 0;             ///< added compliance as a multiple of the joint's own [-], >= 0; 0: rigid
+    Vec3 m_impulse;  ///< impulse on side a, world axes [N s] or [N m s]: input is the warm start, output the solution
 };
 
-/// Rolling and spinning friction where a face of a rigid proxy lies on a patch of a soft surface: a couple between the
-/// two against their relative spin, Coulomb's law with coefficients that are lengths. The patch spins as its nodes do
-/// in the mean of least squares, and feels the couple by the transpose of that: its forces have no sum.
+/// Rolling and spinning friction of a rigid proxy's face on a patch of a soft surface: a couple between the two that
+/// opposes their relative spin, by Coulomb's law with coefficients in metres. The spin of the patch is the
+/// least-squares fit to its nodes' velocities; the couple acts on the nodes through the transpose of that fit, as
+/// forces without resultant.
 struct TorsionalFriction
 {
-    int m_body = 0;        ///< soft side: index into the bodies of the solve
-    int m_first = 0;       ///< its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
-    int m_count = 0;       ///< and its spin is the sum of m_handleBlocks [1/m] times their velocities
-    int m_rigidProxy = 0;  ///< the other side: index into the rigid proxies
+    int m_body = 0;   ///< soft side: index into the bodies of the solve
+    int m_first = 0;  ///< its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
+    int m_count = 0;  ///< number of nodes; the patch's spin is the sum of m_handleBlocks [1/m] times their velocities
+    int m_rigidProxy = 0;  ///< other side: index into the rigid proxies
     std::array<Vec3, 3> m_axes = {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};  ///< normal and tangents, unit [-]
-    /// About every axis [m], >= 0: spinning friction about the normal, rolling friction about the tangents; the largest
-    /// couple per newton that presses the two together. About tangents the two make an ellipse.
+    /// Friction coefficients about the axes [m], >= 0: the maximum couple per newton of pressing force, of spinning
+    /// friction about the normal and rolling friction about the tangents. The limits about the tangents form an
+    /// ellipse.
     Vec3 m_friction;
-    double m_lever = 1;  ///< at which a spin counts as a speed, where errors are compared [m], > 0
-    Vec3 m_impulse;      ///< angular impulse on the patch [N m s]: the answer
+    double m_lever = 1;  ///< lever that converts spin to speed for error measures [m], > 0
+    Vec3 m_impulse;      ///< output: angular impulse on the patch [N m s]
 };
 
-/// All that is solved together: bodies, what they touch, and what holds them. Vectors are kept to be used again.
-/// Nothing is checked: indices must be in range, and all numbers finite.
+/// The input of ContactSolver: bodies, contacts and joints that are solved together. Vectors keep their capacity for
+/// reuse. Nothing is checked: indices must be in range, and all numbers finite.
 struct BULLETFEM_API ContactProblem
 {
-    std::vector<ContactBody> m_bodies;          ///< each once
-    std::vector<RigidProxy> m_rigidProxies;     ///< each once
-    std::vector<RigidResponse> m_responses;     ///< of the rigid proxies that have some
-    std::vector<ContactPoint> m_contacts;       ///< between them; their order decides
-    std::vector<Joint> m_joints;                ///< likewise
-    std::vector<RigidContact> m_rigidContacts;  ///< likewise
-    std::vector<TorsionalFriction> m_torsions;  ///< likewise
-    std::vector<int> m_torsionOf;      ///< per contact: the one it presses on, or -1; of those beyond its end: none
-    std::vector<int> m_handleNodes;    ///< nodes of soft ends of joints and patches, one end's after another
-    std::vector<Mat3> m_handleBlocks;  ///< one a handle node [-]
+    std::vector<ContactBody> m_bodies;          ///< each listed once
+    std::vector<RigidProxy> m_rigidProxies;     ///< each listed once
+    std::vector<RigidResponse> m_responses;     ///< responses of articulated rigid proxies
+    std::vector<ContactPoint> m_contacts;       ///< contacts; the result depends on their order
+    std::vector<Joint> m_joints;                ///< joints; the result depends on their order
+    std::vector<RigidContact> m_rigidContacts;  ///< contacts between rigid proxies; the result depends on their order
+    std::vector<TorsionalFriction> m_torsions;  ///< torsional frictions; the result depends on their order
+    /// Per contact: index of the torsional friction that it presses on, or -1; contacts beyond the array's end have
+    /// none.
+    std::vector<int> m_torsionOf;
+    std::vector<int> m_handleNodes;    ///< nodes of soft sides of joints and of patches, concatenated
+    std::vector<Mat3> m_handleBlocks;  ///< one per entry of m_handleNodes [-]
 
-    /// Empties all; nothing is freed.
+    /// Empties all vectors; keeps their memory.
     void clear();
 };
 

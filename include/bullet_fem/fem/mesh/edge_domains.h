@@ -29,8 +29,8 @@ struct BULLETFEM_API EdgeDomains
     static constexpr double kShare = 0.8;
 
     EdgeDomains() = default;
-    /// Builds the domains. `group`: one patch group an element (ElementMaterials::patchGroups()); empty: one group.
-    /// `volume`: one volume an element [m3], > 0. Allocates.
+    /// Builds the domains. `group`: one patch group per element (ElementMaterials::patchGroups()); empty: one group.
+    /// `volume`: one volume per element [m3], > 0. Allocates.
     EdgeDomains(const TetMesh& mesh, const ElementMaterials& materials, const std::vector<int>& group,
                 const std::vector<double>& volume);
 

@@ -26,9 +26,9 @@ struct MaterialRegion
     friend bool operator!=(const MaterialRegion& a, const MaterialRegion& b) { return !(a == b); }
 };
 
-/// The materials of a mesh's elements: one for all, or one a region with a region index an element. Each region has its
-/// own values, except the two Rayleigh dampings, which must be equal in all regions, and a density of 0 (which keeps
-/// the body's own masses), which all regions or none must have.
+/// The materials of a mesh's elements: one for all, or one per region with a region index per element. Each region has
+/// its own values, except the two Rayleigh dampings, which must be equal in all regions, and a density of 0 (which
+/// keeps the body's own masses), which all regions or none must have.
 struct BULLETFEM_API ElementMaterials
 {
     /// One material for all elements.
@@ -36,11 +36,11 @@ struct BULLETFEM_API ElementMaterials
     /// Materials by region. `regionOf`: one index into `regions` an element; empty if there is one region.
     ElementMaterials(std::vector<MaterialRegion> regions, std::vector<int> regionOf);
 
-    /// Materials by label: `labels` has one label an element, `materials` one material for every label that occurs;
+    /// Materials by label: `labels` has one label per element, `materials` one material for every label that occurs;
     /// other materials are ignored. Throws std::invalid_argument, naming the label, its first element and the labels
     /// given, if a label has no material. Allocates.
     static ElementMaterials ofLabels(const std::vector<int>& labels, const std::map<int, Material>& materials);
-    /// One material an element. Elements of equal materials form a region, labelled by its first element. Allocates.
+    /// One material per element. Elements of equal materials form a region, labelled by its first element. Allocates.
     static ElementMaterials ofElements(const std::vector<Material>& perElement);
 
     /// Throws std::invalid_argument, naming region and value, on invalid or incompatible materials, on an element count
@@ -61,7 +61,7 @@ struct BULLETFEM_API ElementMaterials
 
     static constexpr int kAlone = -1;  ///< value in patchGroups() of elements that share no patch
     /// Patch groups for mean dilatation: only elements with equal numbers may share a patch. Regions of equal materials
-    /// have equal numbers. One number an element; empty if all elements form one group. Allocates.
+    /// have equal numbers. One number per element; empty if all elements form one group. Allocates.
     std::vector<int> patchGroups() const;
     /// True if any region uses mean dilatation.
     bool usesMeanDilatation() const;

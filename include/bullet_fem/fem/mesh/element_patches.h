@@ -23,7 +23,7 @@ struct BULLETFEM_API ElementPatches
     [[deprecated("kMax")]] static constexpr int kMost = kMax;
 
     ElementPatches() = default;
-    /// Builds the patches. `group`: one number an element (ElementMaterials::patchGroups()); a patch never joins
+    /// Builds the patches. `group`: one number per element (ElementMaterials::patchGroups()); a patch never joins
     /// different groups. Empty: one group. Allocates.
     explicit ElementPatches(const TetMesh& mesh, const std::vector<int>& group = {});
 

@@ -102,9 +102,9 @@ struct BULLETFEM_API Material
     bool yields() const { return m_yieldStress < kInfinite; }
     /// Number of terms of m_relaxation with a share.
     int relaxationTerms() const;
-    /// Strain over stress of a bar that is pulled along a unit vector [-] by a load that lasts, at small strain [1/Pa]:
-    /// 1 / E, of an orthotropic material in that direction of the rest shape, of one that relaxes with what is left of
-    /// the shear modulus.
+    /// Long-time compliance [1/Pa]: strain over stress of a bar under constant tension along a unit vector [-], at
+    /// small strain. 1 / E for an isotropic material; for an orthotropic one in that direction of the rest shape; for a
+    /// relaxing one with the long-time shear modulus.
     double slowCompliance(const Vec3& direction) const;
 
     /// True if every value is finite and in its range; else `why` (if given) names the value, the range and the remedy.

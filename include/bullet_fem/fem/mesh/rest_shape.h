@@ -24,18 +24,18 @@ struct RestElement
     double m_volume;        ///< V_e times the filled fraction [m3]
 };
 
-/// Lumped node masses of one density [kg/m3]: sum of rho V_e filled_e / 4 [kg], one a node. `filled`: one fraction an
-/// element, or empty if all are 1. Allocates.
+/// Lumped node masses of one density [kg/m3]: sum of rho V_e filled_e / 4 [kg], one per node. `filled`: one fraction
+/// per element, or empty if all are 1. Allocates.
 BULLETFEM_API std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled, double density);
 /// Lumped node masses of the materials' densities times `massScale` [-]: sum of massScale rho_e V_e filled_e / 4 [kg],
-/// one a node. `filled`: one fraction an element, or empty if all are 1. Allocates.
+/// one per node. `filled`: one fraction per element, or empty if all are 1. Allocates.
 BULLETFEM_API std::vector<double> lumpedMasses(const TetMesh& mesh, const std::vector<double>& filled,
                                                const ElementMaterials& materials, double massScale);
 
 /// A mesh with its materials, ready to be stepped. Constant once built; shared by all bodies of this shape.
 struct BULLETFEM_API RestShape
 {
-    /// Builds the rest data. `filled`: one fraction an element in (0, 1], the factor on its mass and stiffness; empty
+    /// Builds the rest data. `filled`: one fraction per element in (0, 1], the factor on its mass and stiffness; empty
     /// if all are 1. `massScale`: factor on all masses, > 0. Throws std::invalid_argument on bad materials
     /// (ElementMaterials::validate), fractions or scale. Allocates.
     RestShape(TetMesh mesh, ElementMaterials materials, const std::vector<double>& filled = {}, double massScale = 1);

@@ -27,11 +27,11 @@ class BULLETFEM_API TetMesh
 public:
     TetMesh() = default;
 
-    /// Takes n rest positions [m] and the elements. Elements of negative orientation are mended (last two nodes
+    /// Takes n rest positions [m] and the elements. Elements of negative orientation are reversed (last two nodes
     /// swapped) and counted. Throws std::invalid_argument, naming element and node, on: no element; an index outside
     /// [0, n); a repeated node in an element; a degenerate element (volume below 1e-9 of its longest edge cubed); a
-    /// position that is not finite; a node in no element, unless these are kept; two elements with the same four nodes;
-    /// a face shared by more than two elements. Allocates.
+    /// position that is not finite; a node in no element, unless these are kept; two elements with equal nodes; a face
+    /// shared by more than two elements. Allocates.
     TetMesh(std::vector<Vec3> restPositions, std::vector<Tet> tets, LooseNodes loose = LooseNodes::refused);
 
     /// Rebuilds a mesh from its positions, elements and boundarySides(), keeping loose nodes, without the search for
@@ -41,7 +41,7 @@ public:
     static TetMesh withSides(std::vector<Vec3> restPositions, std::vector<Tet> tets,
                              const std::vector<unsigned char>& sides);
 
-    /// Boundary sides, one mask an element: bit a is set if the face opposite its node a is on the surface. Allocates.
+    /// Boundary sides, one mask per element: bit a is set if the face opposite its node a is on the surface. Allocates.
     std::vector<unsigned char> boundarySides() const;
 
     const std::vector<Vec3>& restPositions() const { return m_restPositions; }  ///< X [m], n entries
@@ -58,7 +58,7 @@ public:
     int looseCount() const { return m_looseCount; }          ///< number of nodes that belong to no element
     /// True if no element uses `node`, in [0, nodeCount()).
     bool isLoose(int node) const { return m_looseCount > 0 && m_loose[static_cast<std::size_t>(node)]; }
-    int turnedCount() const { return m_turnedCount; }  ///< elements whose orientation was mended
+    int turnedCount() const { return m_turnedCount; }  ///< number of reversed elements
     /// Number of elements with a volume below 1e-3 of their longest edge cubed.
     int sliverCount() const { return m_sliverCount; }
     double tetVolume(int e) const;                              ///< V_e [m3], > 0

@@ -2,5 +2,5 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-// Moved; this name goes with the next version.
+// Deprecated header, moved to fem/body; to be removed in the next version.
 #include "bullet_fem/fem/body/active_stress.h"

@@ -30,10 +30,10 @@ BULLETFEM_API double factorStep(double step, double numericalDamping, const Mate
 /// target velocity. The result is velocity(body); the state is unchanged until finishStep.
 BULLETFEM_API SolveReport solveFreeMotion(Body& body, const StepSettings& settings);
 
-/// Adds the response A^-1 J to velocity(body), for impulses J, one a node [N s]; those on fixed nodes are ignored. The
-/// residual of earlier responses since solveFreeMotion joins the right-hand side, so that residuals do not accumulate.
-/// The tolerance is relative to the norm of the right-hand side or to `floor` [N s], >= 0, whichever is larger; if the
-/// initial residual is small enough, only the momentum changes. May be called any number of times after
+/// Adds the response A^-1 J to velocity(body), for impulses J, one per node [N s]; those on fixed nodes are ignored.
+/// The residual of earlier responses since solveFreeMotion joins the right-hand side, so that residuals do not
+/// accumulate. The tolerance is relative to the norm of the right-hand side or to `floor` [N s], >= 0, whichever is
+/// larger; if the initial residual is small enough, only the momentum changes. May be called any number of times after
 /// solveFreeMotion.
 BULLETFEM_API SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings,
                                         double floor = 0);
@@ -47,10 +47,10 @@ BULLETFEM_API void solveFreeMotions(FreeMotion* motions, int count);
 /// solved together; every result is bitwise equal to that of the body alone.
 BULLETFEM_API void applyImpulses(ImpulseResponse* responses, int count);
 
-/// Adds a change to velocity(body), one a node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
+/// Adds a change to velocity(body), one per node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
 BULLETFEM_API void addVelocity(Body& body, const std::vector<Vec3>& change);
 
-/// Position correction: adds h P J to the displacement of this step without changing the velocities, J one impulse a
+/// Position correction: adds h P J to the displacement of this step without changing the velocities, J one impulse per
 /// node [N s], P the warped preconditioner. On the low-memory path A^-1 J, solved to 1e-3, replaces P J;
 /// settings.m_threads share the work. Returns the change of the body's angular momentum about the origin by the
 /// displacement at unchanged velocities [kg m2/s].
@@ -77,10 +77,10 @@ BULLETFEM_API void abandonStep(Body& body);
 /// solveFreeMotion and finishStep: a step of a body without contact.
 BULLETFEM_API SolveReport step(Body& body, const StepSettings& settings);
 
-/// Velocities during the step [m/s], one a node: valid from solveFreeMotion to finishStep.
+/// Velocities during the step [m/s], one per node: valid from solveFreeMotion to finishStep.
 BULLETFEM_API const std::vector<Vec3>& velocity(const Body& body);
 
-/// Mean velocities of the nodes over the step without contact [m/s], (x+ - x) / h, one a node: valid from
+/// Mean velocities of the nodes over the step without contact [m/s], (x+ - x) / h, one per node: valid from
 /// solveFreeMotion to finishStep.
 BULLETFEM_API const std::vector<Vec3>& freeMeanVelocity(const Body& body);
 

@@ -31,7 +31,7 @@ BULLETFEM_API Stress elementStress(const Body& body, int e);
 BULLETFEM_API void elementStresses(const Body& body, std::vector<Stress>& perElement);
 
 /// Nodal stresses [Pa]: the mean over the adjacent elements, weighted by their filled volumes; zero at loose nodes.
-/// Smoother than element stresses, with lower peaks. `perElement` has one entry an element; allocates only when
+/// Smoother than element stresses, with lower peaks. `perElement` has one entry per element; allocates only when
 /// `perNode` grows.
 BULLETFEM_API void nodeStresses(const BodyModel& model, const std::vector<Stress>& perElement,
                                 std::vector<Stress>& perNode);
