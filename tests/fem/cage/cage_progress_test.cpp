@@ -15,7 +15,7 @@ namespace
 struct ProgressCase
 {
     const char* m_name;
-    double m_cellSize, m_snap, m_cellsAcross;  // a size of 0: by the number of elements
+    double m_cellSize, m_snap, m_cellsAcross;  // a cell size of 0: by the number of elements
 };
 
 class CageProgressTest : public testing::TestWithParam<ProgressCase>
@@ -57,7 +57,7 @@ TEST_P(CageProgressTest, RisesFromZeroToOne)
     EXPECT_EQ(cage.m_filled, same.m_filled) << "who listens changes nothing";
 }
 
-// Wherever it is asked, it says no more after that.
+// After a cancellation at any call, no further progress is reported.
 TEST_P(CageProgressTest, CanBeCancelledAtAnyTime)
 {
     int words = 0;

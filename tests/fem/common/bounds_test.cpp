@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bounds take what single precision makes of them.
+//
+// Bounds accept values after rounding to single precision.
 #include "fem/common/bounds.h"
 
 #include <gtest/gtest.h>
