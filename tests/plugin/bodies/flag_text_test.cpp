@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Every flag of the reports has words.
+//
+// Each report flag has a text.
 #include "bullet_fem/btFemFlagText.h"
 
 #include <gtest/gtest.h>
