@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# fuzz.sh [seconds a reader, 600 unless given] [reader...]: fuzzes our own file readers for longer than the tests do.
-# Finds are kept, so that the next run goes on from them. Needs clang++ with libFuzzer; run tests/run.sh before.
+# fuzz.sh [seconds a reader, 600 unless given] [reader...]: fuzzes the file readers for longer than the tests do.
+# The corpus is kept, so that the next run continues from it. Needs clang++ with libFuzzer; run tests/run.sh before.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/release

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs what is missing (Debian 12, as root or with sudo), builds and runs all tests but the slow ones, which take longer:
+# Installs missing packages (Debian 12, as root or with sudo), builds and runs all tests but the slow ones, for which use
 # tests/run.sh -L slow. Arguments go to ctest, in place of that, and everything is built: tests/run.sh -R SurfaceFile
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -27,7 +27,7 @@ say "building in $build"
     -DBULLETFEM_BUILD_SLOW_TESTS="$everything" -DBULLETFEM_BUILD_BENCHMARKS="$everything")
 cmake --build "$build" --parallel "$(nproc)"
 
-# One test asks the Khronos validator, which npm has; it is skipped, and says so, where that cannot be had.
+# One test runs the Khronos validator from npm; without it the test is skipped with a message.
 if command -v npm >/dev/null && [ ! -d "$build/npm/node_modules/gltf-validator" ]; then
     timeout 120 npm install --silent --no-fund --no-audit --prefix "$build/npm" gltf-validator@2.0.0-dev.3.10 ||
         say "npm could not install gltf-validator: its test will be skipped"

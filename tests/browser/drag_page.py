@@ -31,7 +31,7 @@ except ImportError:
 
 WAIT = 300  # [s]
 SIZE = 960, 640
-BEND, LIFT = [150, 60], [40, -200]  # ways of the mouse [pixels]
+BEND, LIFT = [150, 60], [40, -200]  # mouse displacements [pixels]
 BROWSER = ["--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
            "--enable-unsafe-swiftshader", "--remote-debugging-port=0", "--no-first-run",
            "--disable-background-networking",
@@ -49,7 +49,7 @@ class Page:
     def __init__(self, socket):
         self.socket = socket
         self.number = 0
-        self.problems = []  # exceptions, error messages, and what was asked of another server
+        self.problems = []  # exceptions, error messages, and requests to other servers
 
     async def send(self, method, **parameters):
         self.number += 1
@@ -166,7 +166,7 @@ async def play(page, check, out):
     await page.picture(os.path.join(out, "rest.png"))
     check("tetrahedra", rest["tets"], 1000, 5000)
 
-    # With its feet held: the body bends, and swings back.
+    # With fixed feet the body bends, and swings back.
     top = await page.value(HIGHEST)
     start = await page.value(f"bulletfem.pixelOf({json.dumps(top)})")
     start[1] += 6  # into the trunk
@@ -177,7 +177,7 @@ async def play(page, check, out):
     back = await let_go(page, check, [x + d for x, d in zip(start, BEND)])
     check("centre from where it stood before [m]", distance(back["centre"], rest["centre"]), 0, 0.02)
 
-    # Free: it is lifted, and falls.
+    # Free, the body is lifted, and falls.
     await page.value("document.getElementById('feet').click()")
     await page.after(1)
     centre = (await page.state())["centre"]
@@ -206,7 +206,7 @@ HIGHEST = """(() => {
     for (let k = 0; k < count; ++k) if (v[6 * k + 1] > v[6 * top + 1]) top = k;
     return Array.from(v.slice(6 * top, 6 * top + 3));
 })()"""
-# Of a fresh scene, its feet held: a ball falls on it, and it trembles.
+# A ball falls on the body of a new scene with fixed feet, and the body vibrates.
 MEASURE = """(() => {
     const young = document.getElementById('young'), feet = document.getElementById('feet');
     bulletfem.call.set(3e5, 0.01, 9.81, 1 / 60);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# run_fuzzer.sh <build folder of the fuzzers> <reader>: executes the fuzzer from its seeds, always in the same way.
+# run_fuzzer.sh <build folder of the fuzzers> <reader>: executes the fuzzer from its seeds, reproducibly.
 # BULLETFEM_FUZZ_RUNS is the number of executions; BULLETFEM_FUZZ_SECONDS, if set, the time in its place, with another
-# random seed each time and a corpus that is kept for the next. What fails is left in <build folder>/failed.
+# random seed each time and a corpus that is kept for the next. Failing inputs are left in <build folder>/failed.
 set -euo pipefail
 build=$1 reader=$2
 

@@ -39,7 +39,7 @@ inline TetMesh hollowSphere(double inner, double outer, int cells, int layers)
     return TetMesh(X, tets);
 }
 
-/// The elements of a mesh whose middle is not in a hole.
+/// A copy of a mesh without the elements whose centroid is in a hole.
 inline TetMesh withHoles(const TetMesh& mesh, const std::function<bool(const Vec3& middle)>& isHole)
 {
     const std::vector<Vec3>& X = mesh.restPositions();

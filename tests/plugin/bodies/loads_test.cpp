@@ -83,7 +83,7 @@ TEST_P(Loads, WindPushesAndDragFollowsBulletsCoefficient)
         cube.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
         cube.m_cfg.kDG = btScalar(k == 0 ? 0.05 : 0.1);
         cube.setWindVelocity(btVector3(20, 0, 0));
-        cube.setVelocity(btVector3(0, 1, 0));  // Bullet clamps wind on a node to what would stop it
+        cube.setVelocity(btVector3(0, 1, 0));  // Bullet limits wind on a node to the impulse that stops it
         world.step(10);
         speed[k] = velocityOf(cube).x;
     }

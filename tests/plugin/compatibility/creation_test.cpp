@@ -143,7 +143,7 @@ TEST_P(Creation, FacesAreMadeOutwardIfTheCreatorMadeNone)
     body.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
     body.m_cfg.kDG = btScalar(0.5);
     body.setWindVelocity(btVector3(20, 0, 0));
-    body.setVelocity(btVector3(0, 1, 0));  // Bullet clamps wind on a node to what would stop it
+    body.setVelocity(btVector3(0, 1, 0));  // Bullet limits wind on a node to the impulse that stops it
     world.step();
     EXPECT_EQ(body.m_faces.size(), static_cast<int>(mesh.surface().size()));
     EXPECT_NEAR(body.getVolume(), mesh.volume(), 1e-5 * mesh.volume());  // by the divergence theorem: outward

@@ -20,7 +20,7 @@ class Transforms : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Transforms, eachWorld(), nameOfWorld);
 
-// Lifted by translate() while it sleeps on the floor, it wakes and falls back.
+// A body asleep on the floor is lifted by translate(): it wakes and falls back.
 TEST_P(Transforms, ASleepingBodyWakesAndFalls)
 {
     FemWorld world(GetParam());

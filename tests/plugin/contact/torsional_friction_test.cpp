@@ -94,7 +94,8 @@ StepCouple stepAndMeasure(FemWorld& world, const btRigidBody& ball, const btSoft
     return result;
 }
 
-/// The velocity of a resting ball; with the swap Bullet's value lacks one step of gravity, which is added.
+/// The velocity of a resting ball. With the swap Bullet's value is that before gravity of the next step, which is
+/// added.
 btVector3 motionAtRest(FemWorld& world, const btRigidBody& ball)
 {
     const bool swaps = dynamic_cast<btFemConstraintSolver*>(world.bullet().getConstraintSolver()) == nullptr;
@@ -264,7 +265,7 @@ TEST_P(TorsionalFrictionTest, KeepsTheAngularMomentumOfAFreePair)
         worst = std::max(worst, norm(now.m_angular - start.m_angular));
     }
     EXPECT_LT(ball.getAngularVelocity().z(), 19.5);
-    // Of 16 places in single precision the maximum error was 1.6e-6; in double precision 2e-10.
+    // Among 16 places in single precision the maximum error was 1.6e-6; in double precision 2e-10.
     const double rounding = sizeof(btScalar) == 4 ? 2e-6 : 1e-9;
     EXPECT_LT(worst, rounding * norm(start.m_angular));
 }

@@ -44,8 +44,8 @@ protected:
     }
 };
 
-// In a step of 1/60 s gravity moves a free body by 2.7 mm, which is the size of these. Of two cubes one above the other
-// both would fall freely, although the ground holds the lower one.
+// In a step of 1/60 s gravity moves a free body by 2.7 mm, which is the size of these. Two cubes one above the other
+// would both fall freely, although the ground holds the lower one.
 TEST_P(EverySize, DroppedBodiesAreNeitherLostNorSinkIn)
 {
     const auto& [coupling, drop, frequency, size] = GetParam();

@@ -18,7 +18,7 @@ namespace bullet_fem
 inline const btVector3 kNoGravity(0, 0, 0);
 inline const btQuaternion kNoTurn = btQuaternion::getIdentity();
 
-/// Of a box with these half edges [kg m2].
+/// Principal moments of inertia of a box with these half edges [kg m2].
 inline btVector3 boxInertia(btScalar mass, const btVector3& half)
 {
     btVector3 inertia;
