@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
-# Installs missing packages (Debian 12, as root or with sudo), builds and runs all tests but the slow ones, for which use
-# tests/run.sh -L slow. Arguments go to ctest, in place of that, and everything is built: tests/run.sh -R SurfaceFile
+# Installs missing packages (Debian 12, as root or with sudo), builds and runs all tests but the slow ones;
+# tests/run.sh -L slow runs those. Arguments go to ctest, and everything is built: tests/run.sh -R SurfaceFile
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"

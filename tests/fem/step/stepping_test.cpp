@@ -179,7 +179,7 @@ TEST(Invariants, MatchHandValues)
     EXPECT_NEAR(mechanicalEnergy(body), 2 + 1.75 / 6, 1e-13);
 }
 
-// --- How the solve ends ---
+// --- Termination of the solve ---
 
 TEST(DirectMode, TakesOneIteration)
 {
