@@ -293,7 +293,7 @@ TEST(Render, BoundsKeepTheGroundOfAFilmTheSame)
     EXPECT_LT(differentPixels(frame(1), frame(80)), 50) << "texels of the shadow";
     const Image crowded = frame(80);
     scene.m_meshes.pop_back();
-    EXPECT_LT(differentPixels(crowded, render(scene)), 50) << "shadows are as fine as without the far one";
+    EXPECT_LT(differentPixels(crowded, render(scene)), 50) << "the far object does not coarsen shadows";
 }
 
 TEST(Render, EmptyScenesAndFlatMeshesAreDrawn)
@@ -318,7 +318,7 @@ TEST(Render, RejectsBadScenesAndSizes)
     scene.m_meshes[0].m_positions[0].x = std::nan("");
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { render(scene); }), HasSubstr("mesh 0: position 0"));
     scene.m_meshes[0].m_positions[0].x = 0;
-    EXPECT_NO_THROW(render(scene)) << "the renderer is as good as before";
+    EXPECT_NO_THROW(render(scene)) << "the renderer still works";
 }
 
 TEST(RenderDeathTest, AdvisesInstallingADriverWithoutEgl)

@@ -42,7 +42,7 @@ TEST(SceneFlags, TellTheFirstAndTheLastStepWithAFlag)
         last = run.m_world.time();
     }
     ASSERT_GT(steps, 1);
-    EXPECT_LT(last, 0.45) << "it is raised early alone";
+    EXPECT_LT(last, 0.45) << "it is raised only early";
     const std::vector<SceneFlag> all = flags.all();
     ASSERT_EQ(all.size(), 1u) << "of one body";
     EXPECT_EQ(all[0].m_body, "sunken");

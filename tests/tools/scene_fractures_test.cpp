@@ -89,7 +89,7 @@ TEST(SceneFractures, ABarHoldsAtMoreThanItBearsAndSplitsAtLess)
     EXPECT_GE(what.m_parts, 2);
     EXPECT_EQ(nodes + int(what.m_copyOf.size()), splits.nodeCount(0));
     for (std::size_t n = 0; n < what.m_copyOf.size(); ++n) EXPECT_LT(what.m_copyOf[n], nodes + int(n));
-    EXPECT_EQ(btFemFracture::splits(splits.m_world.fem()).size(), 0) << "they are taken";
+    EXPECT_EQ(btFemFracture::splits(splits.m_world.fem()).size(), 0) << "the world has read them";
 }
 
 // The broken-off part is accelerated by its share of the force, which includes copies of nodes.

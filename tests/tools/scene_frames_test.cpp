@@ -67,7 +67,7 @@ TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
                                               ".");
     SceneWorld world(scene);
     SceneFrames frames(world);
-    ASSERT_EQ(frames.surfaces().size(), 1u) << "of a plane there is none";
+    ASSERT_EQ(frames.surfaces().size(), 1u) << "a plane has none";
     EXPECT_EQ(frames.bodyOf(0), 1);
     const std::vector<Triangle> triangles = frames.surfaces()[0].m_triangles;
     EXPECT_TRUE(isClosed(triangles));

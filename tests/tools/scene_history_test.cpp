@@ -95,7 +95,7 @@ TEST_F(SceneHistoryTest, RunsOnAsItDidBefore)
     ASSERT_EQ(m_run.m_world.steps(), 30);
     const std::vector<std::vector<Vec3>> before = m_seen;
     steps(20);
-    EXPECT_LT(farthest(m_seen[50], before[50]), 2e-4) << "contacts of rigid bodies begin anew";
+    EXPECT_LT(farthest(m_seen[50], before[50]), 2e-4) << "contacts of rigid bodies restart without warm start";
     EXPECT_GT(farthest(m_seen[30], m_seen[50]), 2e-2) << "it moves meanwhile";
 }
 

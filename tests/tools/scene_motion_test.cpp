@@ -45,7 +45,7 @@ TEST(SceneMotion, SleepingBodiesMoveWithTheirPlate)
         "velocity": [[6, [0, 0, 0]], [6, [0, 0.5, 0]], [7, [0, 0.5, 0]], [7, [0, 0, 0]]] }],
       "constraints": [{ "kind": "anchor", "soft": "hangs", "rigid": "plate", "nodes": { "low": [-1, -0.2, -1], "high": [1, 0, 1] } }] })");
     run.until(5.9);
-    EXPECT_FALSE(run.m_world.soft(0).isActive()) << "else this looks at nothing";
+    EXPECT_FALSE(run.m_world.soft(0).isActive()) << "otherwise the test is empty";
     EXPECT_FALSE(run.m_world.soft(1).isActive());
     const Vec3 lay = run.node(0, 0), hung = run.node(1, 0);
     run.until(8);
@@ -89,7 +89,7 @@ TEST(SceneMotion, MotorsFollowTheirSpeedsAndWakeSleepingBodies)
         { "kind": "slider", "body": "cart", "to": "lift", "pivot": [0, 0.2, 0], "axis": [1, 0, 0], "speed": [[4, 0], [4, 0.2]], "force": 500 },
         { "kind": "hinge", "body": "wheel", "pivot": [4, 0, 0], "axis": [0, 0, 1], "speed": [[4, 0], [5, -3]], "torque": 50 }] })");
     run.until(3.9);
-    for (const int k : {0, 1, 2}) EXPECT_FALSE(run.m_world.rigid(k).isActive()) << "else this looks at nothing";
+    for (const int k : {0, 1, 2}) EXPECT_FALSE(run.m_world.rigid(k).isActive()) << "otherwise the test is empty";
     run.until(6);
     EXPECT_NEAR(placeOf(run, 0).y, 0.2 + 0.4, 2e-3);
     EXPECT_NEAR(placeOf(run, 1).y, 0.2 + 0.2 + 0.4, 2e-3) << "rides on the lift";

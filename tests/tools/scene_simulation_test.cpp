@@ -187,7 +187,7 @@ TEST_F(SceneSimulationTest, OpeningIsGivenUpAtOnce)
     EXPECT_EQ(m_world->softCount(), 2);
     EXPECT_THAT(m_simulation->message(), HasSubstr("small.off"));
     m_simulation->act(ViewerKey::cancel, downAt(0, 0));
-    EXPECT_EQ(m_simulation->message(), "") << "there is nothing to give up";
+    EXPECT_EQ(m_simulation->message(), "") << "no action to cancel";
 }
 
 // The arrows are nodal forces in newtons; their sum is the weight.
@@ -275,7 +275,7 @@ TEST_F(SceneSimulationTest, KeysLeadBackInTimeAlsoWhileABodyIsHeld)
     EXPECT_EQ(m_world->steps(), 10);
     EXPECT_EQ(m_simulation->message(), "");
     steps(40);
-    EXPECT_NEAR(lowest(0), 0, 1e-3) << "nothing holds it";
+    EXPECT_NEAR(lowest(0), 0, 1e-3) << "without support";
     m_simulation->act(ViewerKey::later, anywhere);
     EXPECT_THAT(m_simulation->message(), HasSubstr("latest"));
 }
@@ -298,7 +298,7 @@ TEST_F(SceneSimulationTest, ChangedMaterialRestartsTheHistory)
     begin(kBlockOnGround);
     steps(30);
     m_simulation->setParameter(3, 3);
-    EXPECT_EQ(m_simulation->history().count(), 4) << "gravity is no matter";
+    EXPECT_EQ(m_simulation->history().count(), 4) << "gravity is negligible";
     EXPECT_NEAR(m_simulation->parameters()[3].m_value, 3, 1e-12);
     m_simulation->setParameter(0, 2e6);
     EXPECT_EQ(m_simulation->history().count(), 1);

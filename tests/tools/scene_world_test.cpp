@@ -48,7 +48,7 @@ TEST(SceneWorld, ABeamBendsAsBeamTheorySays)
     RecordProperty("fine", std::to_string(fine / theory));
     EXPECT_NEAR(fine / theory, 1, 0.06);
     EXPECT_LT(coarse, fine);
-    EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "the limit of small elements";
+    EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "extrapolated to small elements";
 }
 
 TEST(SceneWorld, TheShortestStepMovesABody)

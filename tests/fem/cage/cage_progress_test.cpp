@@ -49,12 +49,12 @@ TEST_P(CageProgressTest, RisesFromZeroToOne)
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     double longest = 0;
     for (std::size_t k = 1; k < shares.size(); ++k) longest = std::max(longest, shares[k] - shares[k - 1]);
-    EXPECT_LT(longest, 0.45) << "no stage is silent for most of the way";
+    EXPECT_LT(longest, 0.45) << "largest gap between reports";
 
     const Cage same = makeCage(m_ball, settings());
     ASSERT_EQ(cage.m_mesh.tetCount(), same.m_mesh.tetCount());
     EXPECT_EQ(cage.m_mesh.tets(), same.m_mesh.tets());
-    EXPECT_EQ(cage.m_filled, same.m_filled) << "who listens changes nothing";
+    EXPECT_EQ(cage.m_filled, same.m_filled) << "a progress callback does not change the cage";
 }
 
 // After a cancellation at any call, no further progress is reported.

@@ -230,7 +230,7 @@ TEST(CrowdSweeps, GiveBodiesAllTheirImpulses)
 {
     CubeBlock block;
     block.solve(nullptr);
-    EXPECT_LT(block.largestLoss(), 1e-3) << "of changes of some m/s";
+    EXPECT_LT(block.largestLoss(), 1e-3) << "of velocity changes of some m/s";
 }
 
 }  // namespace

@@ -155,12 +155,12 @@ TEST(Contact, IsSweptAsLongAsOthersMove)
     };
     const int alone = sweepsUntilDone([](int) { return 0.0; });
     EXPECT_LT(alone, kMany);
-    EXPECT_EQ(sweepsUntilDone([](int) { return 1e-7; }), 1) << "that others still change by less than they round to";
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1e-7; }), 1) << "other rows change by less than rounding";
     const auto slowing = [](int sweep) { return std::pow(0.7, sweep); };  // [m/s]
     const int last = sweepsUntilDone(slowing);
-    EXPECT_LE(slowing(last), 2 * scene.m_settings.m_tolerance) << "of 2 m/s that contact changes";
+    EXPECT_LE(slowing(last), 2 * scene.m_settings.m_tolerance) << "of a velocity change of 2 m/s";
     EXPECT_GT(slowing(last - 1), 2 * scene.m_settings.m_tolerance);
-    EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "the second ten are no better than the first";
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "ten more sweeps are no improvement";
 }
 
 TEST(Contact, HasNoEffectOutOfReach)

@@ -68,7 +68,7 @@ TEST(RigidContact, SupportsObjectsOnAFloor)
     }
     ContactScene alone;
     putBalls(alone, 1);
-    EXPECT_LT(impulseOf(alone), 0.5 * whole) << "nothing holds it";
+    EXPECT_LT(impulseOf(alone), 0.5 * whole) << "without support";
 }
 
 TEST(RigidContact, NeverPulls)

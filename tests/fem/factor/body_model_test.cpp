@@ -154,7 +154,7 @@ TEST(BodyModelLimit, AFactorBeyondTheLimitIsRefusedWithItsSize)
     try
     {
         BodyModel::create(model->sharedShape(), input);
-        ADD_FAILURE() << "nothing was thrown";
+        ADD_FAILURE() << "no exception";
     }
     catch (const std::runtime_error& error)
     {

@@ -179,7 +179,7 @@ TEST(OrderingBackend, NamesTheLibrariesOfThisBuildWithTheirVersions)
     EXPECT_THAT(orderingBackend(), StartsWith(std::string(minimumDegreeName()) + " "));
     EXPECT_THAT(orderingBackend(), HasSubstr("."));
     EXPECT_THAT(orderingBackend(), HasSubstr(metisVersion()));
-    EXPECT_LT(orderingBackend().size(), 48u) << "the room that baked files have for it";
+    EXPECT_LT(orderingBackend().size(), 48u) << "size of its field in baked files";
 }
 
 }  // namespace

@@ -207,10 +207,10 @@ TEST(Reactions, AreUnknownUntilAStepComputesThem)
     step(beam, settings);
     EXPECT_TRUE(reactions(beam));
     beam.setModel(clampedBeam().m_model);
-    EXPECT_FALSE(reactions(beam)) << "of another factor";
+    EXPECT_FALSE(reactions(beam)) << "with another factor";
     Body block = freeBlock();
     step(block, settings);
-    EXPECT_FALSE(reactions(block)) << "of a body that nothing holds";
+    EXPECT_FALSE(reactions(block)) << "of a free body";
 }
 
 }  // namespace

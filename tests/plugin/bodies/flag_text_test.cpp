@@ -41,7 +41,7 @@ TEST(FlagText, IsThereForEveryFlagOfTheHeader)
         explanations.insert(explanation);
     }
     EXPECT_GE(count, 27);
-    EXPECT_EQ(titles.size(), std::size_t(count)) << "they tell flags apart";
+    EXPECT_EQ(titles.size(), std::size_t(count)) << "titles are distinct";
     EXPECT_EQ(explanations.size(), std::size_t(count));
 }
 

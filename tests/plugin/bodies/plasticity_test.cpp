@@ -220,7 +220,7 @@ TEST(RelaxationOfBodies, BoundsAreTakenInEveryPrecision)
     material.m_relaxation[0].m_time = btScalar(9e-7);
     EXPECT_FALSE(material.valid());
     material.m_relaxation[0] = {btScalar(0.34), 1};
-    EXPECT_FALSE(material.valid()) << "1 in all";
+    EXPECT_FALSE(material.valid()) << "1 in total";
 }
 
 // A cube at rest on the ground sags more as its modulus relaxes: half the modulus, twice the sag.

@@ -80,7 +80,7 @@ TEST(SelfContact, AFoldingStripDoesNotPassThroughItself)
         ASSERT_TRUE(allFinite(*strip.m_strip));
         least = std::min(least, strip.clearance());
     }
-    EXPECT_GT(least, -0.01) << "what the glued half yields";
+    EXPECT_GT(least, -0.01) << "compression of the fixed half";
     EXPECT_LT(strip.clearance(), 0.01) << "it lies on it";
     EXPECT_GT(strip.selfContacts(), 10);
 }

@@ -272,7 +272,7 @@ TEST(FastSoftBody, DoesNotPassAThinPlate)
         ASSERT_TRUE(allFinite(*ball) && allFinite(plate));
         ASSERT_GT(centerOf(*ball).z, -0.2) << "step " << k;
     }
-    EXPECT_GT(centerOf(*ball).z, 0.1) << "it came back";
+    EXPECT_GT(centerOf(*ball).z, 0.1) << "it rebounded";
 }
 
 TEST(SoftOnSoftRepeatability, GivesTheSameBits)

@@ -164,7 +164,7 @@ TEST_P(Squeezed, FreeBallInContactWithAnotherYieldsWithIt)
     const Motion after = sum();
     EXPECT_NEAR(after.m_linear.z, before.m_linear.z, 1e-5 * std::fabs(before.m_linear.z));
     EXPECT_LT(after.m_energy, before.m_energy);
-    EXPECT_GT(velocityOf(soft).z, -2) << "it met them";
+    EXPECT_GT(velocityOf(soft).z, -2) << "they were in contact";
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, Squeezed, testing::Values(Coupling::swap, Coupling::coupled),

@@ -137,7 +137,7 @@ TEST_P(Tunnelling, ASoftBallAt50PushesAThinPlateOfTwiceItsMass)
     }
     EXPECT_GT(lowest, -0.00125);
     EXPECT_GE(velocityOf(ball).z, plate.getLinearVelocity().z());
-    EXPECT_LT(plate.getLinearVelocity().z(), -50.0 / 3 * 0.99) << "at least what a plastic impact gives";
+    EXPECT_LT(plate.getLinearVelocity().z(), -50.0 / 3 * 0.99) << "at least the impulse of an inelastic impact";
     Motion after = motionOf(ball);
     after += motionOf(plate);
     EXPECT_LT(norm(after.m_linear - before.m_linear), 1e-6 * whole);

@@ -202,7 +202,7 @@ TEST_P(Snapshot, BodyHeldByASpringContinuesBitForBit)
     EXPECT_TRUE(m_scene.run(40) == bits);
     m_scene.m_fem.removeSpring(body, handle);
     m_scene.restore(saved);
-    EXPECT_TRUE(m_scene.state() == state) << "let go since";
+    EXPECT_TRUE(m_scene.state() == state) << "released since";
     EXPECT_FALSE(m_scene.run(40) == bits);
 }
 
