@@ -274,7 +274,7 @@ TEST_P(ComplianceCacheTest, IsZeroForAFullyFixedBody)
     EXPECT_TRUE(sameBits(cache.block(m_surface[0], m_surface[1]), Mat3()));
 }
 
-// A plate of 27 g whose compliance is 1e-7 of its rigid response: sweeps diverge over an indefinite compliance.
+// A plate of 27 g whose elastic compliance is 1e-7 of its rigid response: sweeps over an indefinite compliance diverge.
 TEST_P(ComplianceCacheTest, IsDefiniteForAStiffLightBody)
 {
     Material material = elasticMaterial(1e8, 0.3);

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double>>  // contact damping
+class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double>>  // of step and contact
 {
 };
 

@@ -199,7 +199,7 @@ TYPED_TEST(CoupledLinks, HitPendulumReceivesTheAngularMomentum)
     EXPECT_LT(worst, 2e-5 * std::fabs(start));
 }
 
-// A free base with a plate on a slider: Bullet's error in the joint is equal without the cube.
+// A free base with a plate on a slider: momentum is conserved to Bullet's error in the joint, equal without the cube.
 TYPED_TEST(CoupledLinks, LinearMomentumOfAFreeSliderAndACubeIsKept)
 {
     const btVector3 half(btScalar(0.05), btScalar(0.3), btScalar(0.3));
