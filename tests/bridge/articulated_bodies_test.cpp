@@ -22,7 +22,7 @@ constexpr double kStep = 1.0 / 60;
 class ArticulatedBodiesTest : public ::testing::Test
 {
 protected:
-    // A free base with a spherical, a revolute, a prismatic and a planar link in a row, bent.
+    // A free base with four links in a bent chain: spherical, revolute, prismatic and planar joints.
     ArticulatedBodiesTest()
     {
         const btVector3 inertia(1, 2, 3), arm(btScalar(0.5), btScalar(0.1), 0);
@@ -118,7 +118,7 @@ TEST_F(ArticulatedBodiesTest, AllLinksMoveAsTheirResponsesSaid)
     }
 }
 
-// Maxwell-Betti.
+// Maxwell-Betti reciprocity: the velocity at B by an impulse at A equals the velocity at A by that impulse at B.
 TEST_F(ArticulatedBodiesTest, ResponsesAreReciprocal)
 {
     addAll();

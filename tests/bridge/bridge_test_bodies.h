@@ -23,7 +23,7 @@ inline std::unique_ptr<btSoftBody> makeSoftBody(btSoftBodyWorldInfo& info, const
     return body;
 }
 
-/// One of a cube outside any world.
+/// The btSoftBody of a cube, outside any world.
 struct TestBox
 {
     explicit TestBox(const Vec3& origin = {}) : m_body(makeSoftBody(m_info, makeBox({1, 1, 1}, {2, 2, 2}, origin))) {}
@@ -40,7 +40,7 @@ inline FactorInput factorInputOf(const btSoftBody& body)
     return input;
 }
 
-/// The body as FEM of the unset material, for a step of 1/60 s.
+/// Makes a FEM soft body of the default material, factored for a step of 1/60 s.
 inline FemSoftBody makeFemSoftBody(btSoftBody& body)
 {
     const auto shape = std::make_shared<const RestShape>(tetMeshOf(body), unsetMaterialOf(body));

@@ -27,13 +27,13 @@ namespace bullet_fem
 
 using ShapePtr = std::unique_ptr<btCollisionShape>;
 
-/// A named way to make a shape, so that tests can be parameterised with it.
+/// A shape's name and factory, for parameterised tests.
 struct NamedShape
 {
     std::string m_name;
     std::function<ShapePtr()> m_make;
-    double m_pointAccuracy = 1e-9;     ///< of gaps to points [m]: closed form, or a hull's exact corners
-    double m_triangleAccuracy = 1e-9;  ///< of gaps to triangles [m]: polytopes of round sides are short of them by 1e-6
+    double m_pointAccuracy = 1e-9;     ///< accuracy of point gaps [m]: closed form, or a hull's exact corners
+    double m_triangleAccuracy = 1e-9;  ///< accuracy of triangle gaps [m]: polytopes of round sides fall short by 1e-6
 };
 
 inline std::string shapeName(const ::testing::TestParamInfo<NamedShape>& info)
@@ -66,7 +66,7 @@ inline ShapePtr twoSpheres()
     return std::make_unique<btMultiSphereShape>(centres, radii, 2);
 }
 
-/// Solids of size about 1 with their sharp outline where Bullet's margin allows it.
+/// Convex solids of size about 1 with sharp edges as far as Bullet's margin allows.
 inline std::vector<NamedShape> convexSolids()
 {
     return {

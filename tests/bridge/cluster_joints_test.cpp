@@ -121,7 +121,7 @@ TEST_F(ClusterJointTest, BothBodiesReportOppositeImpulses)
     expectOppositeImpulses(append(), m_cube, m_other, {0, 0, 2});
     EXPECT_EQ(m_other.m_joints.m_now[0].m_object, &soft());
     showClusterJoints(m_cube);
-    expectNear(append().m_joints[0].m_impulse, {0, 0, 2}, 1e-12);  // the next guess
+    expectNear(append().m_joints[0].m_impulse, {0, 0, 2}, 1e-12);  // the warm start of the next step
     showClusterJoints(m_cube);
 }
 
@@ -196,7 +196,7 @@ TEST_F(ClusterJointTest, AJointToADeletedBodyIsRemoved)
     btRigidBody& ball = m_world.addRigid(1, btVector3(1, 0, 0));
     appendLinear(&ball, btVector3(1, 0, 0));
     hideClusterJoints(m_cube);
-    m_world.deleteRigid(ball);  // as in a callback
+    m_world.deleteRigid(ball);  // as a callback may delete it
     EXPECT_TRUE(m_world.append().m_joints.empty());
     EXPECT_TRUE(m_world.m_flags[0].m_lost);
     EXPECT_EQ(soft().m_joints.size(), 0);
@@ -206,7 +206,7 @@ TEST_F(ClusterJointTest, AJointToADeletedBodyIsRemoved)
 TEST_F(ClusterJointTest, JointToASpringBodyIsFlaggedAndIgnored)
 {
     appendLinear(m_other.m_softBody->m_clusters[0], btVector3(1, 0, 0));
-    m_world.m_bodies.pop_back();  // now just a soft body of the world
+    m_world.m_bodies.pop_back();  // now a plain soft body of the world
     EXPECT_TRUE(append().m_joints.empty());
     EXPECT_TRUE(m_world.m_flags[0].m_bad);
     EXPECT_EQ(soft().m_joints.size(), 1);
@@ -236,7 +236,7 @@ TEST_F(ClusterJointTest, AnAxisIsTurnedBackAndItsSpinLeftFree)
     EXPECT_EQ(joint.m_limit.y, Joint::kUnlimited);
     Vec3 wanted;
     for (int i = 1; i < 3; ++i) wanted += joint.m_wanted[i] * joint.m_axes[i];
-    expectNear(wanted, {0.1 / JointTestWorld::kStep, 0, 0}, 1e-3);  // the cluster turns to where the ball's axis is
+    expectNear(wanted, {0.1 / JointTestWorld::kStep, 0, 0}, 1e-3);  // the cluster turns towards the ball's axis
     EXPECT_TRUE(joint.m_b.m_angular);
 }
 
@@ -261,7 +261,7 @@ TEST_F(ClusterJointTest, MotorHoldsItsSpeed)
     const Joint joint = append().m_joints[0];
     EXPECT_NEAR(joint.m_wanted.x, 7, 1e-6);
     EXPECT_EQ(joint.m_limit.x, Joint::kUnlimited);
-    EXPECT_NEAR(motor.m_current, -2, 1e-5);  // the cluster's spin less the ball's
+    EXPECT_NEAR(motor.m_current, -2, 1e-5);  // the cluster's spin minus the ball's
     EXPECT_TRUE(motor.m_sawRigid);
     soft().m_sst.sdt = btScalar(JointTestWorld::kStep);
     btSoftBody::solveClusters(m_world.world().getSoftBodyArray());

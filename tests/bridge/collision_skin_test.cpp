@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-/// The boundary of a mesh as a surface that follows it: every node in one of its tetrahedra.
+/// Skin vertices at the boundary nodes of a mesh, each embedded in an adjacent tetrahedron.
 std::vector<SkinVertex> verticesOf(const TetMesh& mesh)
 {
     std::vector<SkinVertex> vertices(mesh.nodeCount());
@@ -46,11 +46,11 @@ TEST_F(CollisionSkinTest, BoundarySkinEqualsTheMeshSurface)
 TEST_F(CollisionSkinTest, CountsRepairedDefects)
 {
     std::vector<SkinVertex> vertices = m_vertices;
-    vertices.push_back(vertices[m_mesh.surface()[0][0]]);  // the same place once more
+    vertices.push_back(vertices[m_mesh.surface()[0][0]]);  // a duplicate vertex
     std::vector<Triangle> triangles = m_mesh.surface();
     const int twin = m_mesh.nodeCount();
     triangles[0][0] = twin;
-    std::swap(triangles[5][0], triangles[5][1]);                               // turned over
+    std::swap(triangles[5][0], triangles[5][1]);                               // reversed
     triangles.push_back(triangles[7]);                                         // a duplicate
     triangles.push_back({triangles[9][0], triangles[9][0], triangles[9][1]});  // without area
     triangles.erase(triangles.begin() + 20);                                   // a hole
@@ -83,7 +83,7 @@ TEST_F(CollisionSkinTest, IsTurnedOutwardUnlessItIsTheWallOfAHollow)
         triangles.push_back({first + t[0], first + t[1], first + t[2]});
     EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, 0);
     for (std::size_t k = triangles.size() - 4; k < triangles.size(); ++k) std::swap(triangles[k][1], triangles[k][2]);
-    EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, 0);  // within another, either is left
+    EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, 0);  // nested: either is accepted
 }
 
 TEST_F(CollisionSkinTest, PointsAreSumsOfNodesEachOnce)
@@ -113,7 +113,7 @@ TEST_F(CollisionSkinTest, SurfaceWithoutAreaIsRejected)
     EXPECT_THROW(CollisionSkin(m_mesh, m_vertices, {{0, 1, 0}, {2, 2, 2}}), std::invalid_argument);
 }
 
-/// Contacts of one object along x, 1 cm apart, in cells of 10 cm.
+/// Contacts of one object along x, 1 cm apart; thinning uses cells of 10 cm.
 class Thinning : public testing::Test
 {
 protected:

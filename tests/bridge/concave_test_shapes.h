@@ -18,16 +18,16 @@
 namespace bullet_fem
 {
 
-/// How a grid of triangles is laid out.
+/// Layout of a grid of triangles.
 struct GridSettings
 {
-    int m_cells = 10;         ///< along either side
+    int m_cells = 10;         ///< along each side
     btScalar m_halfSize = 2;  ///< [m]
     bool m_randomWinding = true;
     std::function<btScalar(btScalar, btScalar)> m_height = [](btScalar, btScalar) { return btScalar(0); };
 };
 
-/// A square about the z axis, two triangles a cell.
+/// Adds a square grid centred on the z axis, two triangles a cell.
 inline void addGrid(btTriangleMesh& mesh, const GridSettings& settings)
 {
     std::mt19937 random(3);
@@ -52,12 +52,12 @@ inline void addGrid(btTriangleMesh& mesh, const GridSettings& settings)
         }
 }
 
-/// A concave shape with all that it is made of.
+/// A concave shape with the data that it refers to.
 struct ConcaveShape
 {
     std::unique_ptr<btTriangleMesh> m_mesh = std::make_unique<btTriangleMesh>();
     std::vector<btScalar> m_heights;
-    std::vector<std::unique_ptr<btCollisionShape>> m_parts;  ///< the last is the shape
+    std::vector<std::unique_ptr<btCollisionShape>> m_parts;  ///< the last one is the shape
 
     btCollisionShape& shape() const { return *m_parts.back(); }
     template <class Shape, class... Arguments>
@@ -70,7 +70,7 @@ struct ConcaveShape
     }
 };
 
-/// A grid that is not a shape yet.
+/// A triangle mesh of the grid whose shape is not made yet.
 inline ConcaveShape makeGrid(const GridSettings& settings)
 {
     ConcaveShape shape;
@@ -85,7 +85,7 @@ inline ConcaveShape makeTriangleMesh(const GridSettings& settings = {})
     return shape;
 }
 
-/// Four times as large, and scaled down again, mirrored in x.
+/// A mesh four times as large under btScaledBvhTriangleMeshShape, scaled back and mirrored in x.
 inline ConcaveShape makeScaledMesh(GridSettings settings = {})
 {
     settings.m_halfSize *= 4;
@@ -102,7 +102,7 @@ inline ConcaveShape makeMultimaterialMesh(const GridSettings& settings = {})
     return shape;
 }
 
-/// Without GImpact's margin of 1 cm.
+/// A GImpact mesh without its default margin of 1 cm.
 inline ConcaveShape makeGImpact(const GridSettings& settings = {})
 {
     ConcaveShape shape = makeGrid(settings);
@@ -112,7 +112,7 @@ inline ConcaveShape makeGImpact(const GridSettings& settings = {})
     return shape;
 }
 
-/// Flat, its upper side at z = 0; the cells are scaled to those of the grid.
+/// A flat heightfield with its upper side at z = 0, scaled to the cells of the grid.
 inline ConcaveShape makeHeightfield(const GridSettings& settings = {}, bool flip = false)
 {
     ConcaveShape shape;
@@ -128,8 +128,8 @@ inline ConcaveShape makeHeightfield(const GridSettings& settings = {}, bool flip
     return shape;
 }
 
-/// A program's own concave shape, which hands over all its triangles whatever the box. Bullet takes everything with the
-/// type number of custom concave shapes for a signed distance field where a rigid convex body meets it.
+/// A user-defined concave shape that reports all its triangles for any box. Bullet takes a shape of the custom concave
+/// type for a signed distance field when a rigid convex body meets it.
 class OwnSheet : public btConcaveShape
 {
 public:
@@ -171,7 +171,7 @@ inline ConcaveShape makeOwnSheet(const GridSettings& settings, int type)
     return shape;
 }
 
-/// In a compound in a compound, at offsets whose sum is z = -2.
+/// The mesh in a compound in a compound, at offsets whose sum is z = -2.
 inline ConcaveShape makeNested(const GridSettings& settings = {})
 {
     ConcaveShape shape = makeTriangleMesh(settings);
@@ -186,7 +186,7 @@ inline ConcaveShape makeNested(const GridSettings& settings = {})
     return shape;
 }
 
-/// One of Bullet's ways to say the same sheet.
+/// A representation of the sheet in Bullet, with its name.
 struct NamedConcave
 {
     std::string m_name;

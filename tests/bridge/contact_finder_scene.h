@@ -15,7 +15,7 @@
 namespace bullet_fem
 {
 
-/// The unit cube of two cells a side, its bottom at z = 0, and what a finder finds between it and objects.
+/// The unit cube of two cells a side with its bottom at z = 0; the fixture runs a contact finder against objects.
 class ContactFinderScene : public ::testing::Test
 {
 protected:

@@ -80,7 +80,7 @@ TEST_F(ContactFinderTest, OmitsContactsOutOfReachWithinTheStep)
 
 TEST_F(ContactFinderTest, BallBetweenFixedPointsContactsNearestTrianglePoint)
 {
-    // The nodes are 0.25 m away, and no middle of an edge or triangle is the nearest point.
+    // Nodes are 0.25 m away, and the nearest point is no midpoint of an edge or triangle.
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.3), btScalar(0.26), btScalar(1.09)));
     ASSERT_FALSE(find(m_ball).empty());
     const ContactPoint& c = *deepest();
@@ -91,7 +91,7 @@ TEST_F(ContactFinderTest, BallBetweenFixedPointsContactsNearestTrianglePoint)
     EXPECT_NEAR(c.m_point.y, 0.26, 1e-6);
 }
 
-// A box within one triangle of the top.
+// A box within one triangle of the top face.
 TEST_F(ContactFinderTest, SmallBoxOnATriangleContactsItWithItsCorners)
 {
     const double half = 0.04, edge = m_fem.m_surface.meanEdge();
@@ -121,7 +121,7 @@ TEST_F(ContactFinderTest, SmallBoxOnATriangleContactsItWithItsCorners)
 
 TEST_F(ContactFinderTest, ActiveNearestPointYieldsToNearlyAsCloseFixedPoints)
 {
-    // Over an edge that leaves the node in the middle of the top face.
+    // Moves the ball over an edge that starts at the middle node of the top face.
     const auto find = [this](double aside) -> const std::vector<ContactPoint>&
     {
         m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.5 + aside), btScalar(0.5), btScalar(1.09)));
@@ -198,7 +198,8 @@ TEST_F(ContactFinderTest, ImpulsesOfTheLastStepAreTakenOver)
 
 TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
 {
-    // A tilted box that is sunk in at one corner: nodes, middles and nearest points of edges and triangles.
+    // A tilted box penetrates with one corner: contacts of nodes, of midpoints, and of nearest points on edges and
+    // triangles.
     btBoxShape box(btVector3(1, 1, 1) * btScalar(0.4));
     m_ball.setCollisionShape(&box);
     m_ball.getWorldTransform().setRotation(btQuaternion(btScalar(0.3), btScalar(0.2), btScalar(0.1)));
@@ -240,7 +241,7 @@ TEST_F(ContactFinderTest, ShapesWithoutSupportAreReported)
     EXPECT_TRUE(m_report.m_unknownShape);
 }
 
-// Every third stands on a triangle mesh, too, which is not asked by several threads.
+// Every third body also stands on a triangle mesh, which several threads may not query concurrently.
 TEST_F(ContactFinderTest, ThreadedSearchEqualsSearchBodyByBody)
 {
     const ConcaveShape sheet = makeTriangleMesh();

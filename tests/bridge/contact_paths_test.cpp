@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-/// What moves far within the step: contacts where paths meet.
+/// Objects that move far within a step: contacts lie where swept paths meet.
 class ContactPathsTest : public ContactFinderScene
 {
 protected:
@@ -21,7 +21,8 @@ protected:
         m_ball.setCollisionShape(&m_sphere);
         m_ball.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     }
-    /// With the ball at `start` as the step begins; a kinematic object has moved when contacts are looked for.
+    /// Finds contacts with the ball at `start` at the beginning of the step; a kinematic object is queried at its moved
+    /// pose.
     const std::vector<ContactPoint>& findFrom(const Vec3& start, const Vec3& velocity)
     {
         m_ball.getWorldTransform().setOrigin(bulletVector(start + kStep * velocity));
@@ -37,7 +38,7 @@ protected:
 
 TEST_F(ContactPathsTest, BallHitsThePointInItsPath)
 {
-    // Down to the upper face and, if nothing stops it, on through the lower one.
+    // The path enters through the upper face and, unless stopped, leaves through the lower one.
     const auto& contacts = findFrom({0.3, 0.2, 1.5625}, {0, 0, -120});
     ASSERT_FALSE(contacts.empty());
     const auto first = deepest();
@@ -74,7 +75,7 @@ TEST_F(ContactPathsTest, InitialContactHasTheGapAtStepStart)
 TEST_F(ContactPathsTest, GravityOfOneStepIsNotFastMotion)
 {
     const double speed = 0.3 / kStep;  // more than half of the ball's diameter and of an edge in a step
-    const auto fromTheBeginning = [&](const ContactPoint& c)  // the object has gone its way already
+    const auto fromTheBeginning = [&](const ContactPoint& c)  // the object has already moved to its end pose
     {
         return norm(c.m_approach - Vec3{0, 0, -speed * kStep}) < 1e-6;
     };

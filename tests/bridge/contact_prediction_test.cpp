@@ -17,7 +17,7 @@ namespace
 
 constexpr double kStep = 1.0 / 60, kGravity = 9.81;
 
-// A cube, 1 kg a node, in gravity, on contacts with rigid and soft bodies.
+// A cube, 1 kg a node, under gravity, in contact with rigid and soft bodies.
 class ContactPredictionTest : public testing::Test
 {
 protected:
@@ -33,7 +33,7 @@ protected:
         m_fem.m_contacts[0].m_impulse = {0, 0, share * m_weight};
     }
 
-    // On another soft body.
+    // Rests on another soft body.
     void restOnSoft(SoftPairKind kind, double impulse)
     {
         ContactPoint contact;
@@ -89,7 +89,7 @@ TEST_F(ContactPredictionTest, BodyCarriedBySoftBodiesIsSteady)
     for (Vec3& f : m_fem.m_body.m_loads.m_force) f = {0, 0, -10 * kGravity};
     restOnSoft(SoftPairKind::edges, 10 * m_weight);
     EXPECT_TRUE(isSteady());
-    restOnSoft(SoftPairKind::nodeOfSecond, -10 * m_weight);  // whose impulses act on the second
+    restOnSoft(SoftPairKind::nodeOfSecond, -10 * m_weight);  // the impulses act on the second body
     EXPECT_TRUE(isSteady());
     restOnSoft(SoftPairKind::nodeOfSecond, 10 * m_weight);
     EXPECT_FALSE(isSteady());
@@ -104,7 +104,7 @@ TEST_F(ContactPredictionTest, RigidlyMovingBodyIsSteady)
     EXPECT_FALSE(isSteady());
 }
 
-// A jammed one, say: what it does would hang on small differences of large impulses.
+// A jammed body: its motion depends on small differences of large impulses.
 TEST_F(ContactPredictionTest, BodyCarryingManyTimesItsLoadsIsNotSteady)
 {
     m_fem.m_contacts.assign(3, ContactPoint());
@@ -134,7 +134,7 @@ TEST_F(ContactPredictionTest, PredictsNodeImpulsesOfTheLastStep)
     EXPECT_NEAR(m_fem.m_predicted[0].z, 0.5 * m_weight, 1e-12);
 }
 
-// As after it was attached to something, or set up anew: its contacts may be told by other nodes.
+// The state after a new attachment or a new setup, when contacts may belong to other nodes.
 TEST_F(ContactPredictionTest, BodyWithForgottenPlaceIsNotCarriedBySoftBodies)
 {
     restOnSoft(SoftPairKind::edges, m_weight);

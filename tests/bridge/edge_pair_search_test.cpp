@@ -29,7 +29,7 @@ TEST(EdgePairSearch, CrossingBarsContactAtRimCrossings)
     expectAlongZ(sunk, -0.1);
 }
 
-// The sides of rims lean over the way out, as those of squeezed bodies do.
+// The sides at the rims lean outwards, as those of compressed bodies do.
 TEST(EdgePairSearch, OverlappingRimsOfLeaningBarsAreInContact)
 {
     for (const double slope : {-0.2, 0.01, 0.05, 0.2})
@@ -57,7 +57,7 @@ TEST(EdgePairSearch, EdgePairsContactAlongTheirCommonNormal)
 {
     PairBody upper(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5})),
         lower(makeBox({2, 1, 1}, {1, 1, 1}, {-1, -0.5, -0.5}));
-    upper.turn(testRotation(0.7, 0, 0));  // stands on an edge along x
+    upper.turn(testRotation(0.7, 0, 0));  // rests on an edge along x
     lower.turn(testRotation(0.75, 0, 0)).turn(testRotation(0, 0, 1.1));
     double lowest = 1, highest = -1;
     for (const Vec3& x : upper.m_x) lowest = std::min(lowest, x.z);
@@ -69,8 +69,8 @@ TEST(EdgePairSearch, EdgePairsContactAlongTheirCommonNormal)
     expectAlongZ(found, 0.004);
 }
 
-// Two plates that are bent along their middles, and touch there: the lower one along y, the upper one, of short edges
-// whose ends are as far from the crossing, along x.
+// Two plates, each bent along its middle, in contact there: the lower one bent along y, the upper one along x with
+// short edges whose end points are equally far from the crossing.
 class BentPlates : public testing::Test
 {
 protected:
@@ -82,7 +82,7 @@ protected:
         m_lower.bend([=](const Vec3& x) { return Vec3{x.x, x.y, x.z - slope * std::fabs(x.x)}; });
     }
 
-    // Of edges where the plates are bent, not of their rims.
+    // Counts contacts of edges at the bends, without those of the rims.
     static int countCrossings(const PairContacts& found, double gap)
     {
         int count = 0;

@@ -31,7 +31,7 @@ TEST(FieldDistance, MatchesTheBallAndItsNormal)
     for (int k = 0; k < 500; ++k)
     {
         const Vec3 x = {part(random), part(random), part(random)};
-        if (norm(x) < 0.3) continue;  // the cubics do not have the peak in the middle
+        if (norm(x) < 0.3) continue;  // the field's cubic interpolation rounds off the peak in the middle
         SurfaceDistance d;
         ASSERT_TRUE(pointFieldDistance(*ball, x, 10, d));
         EXPECT_NEAR(d.m_gap, norm(x) - kBallOfField, 1e-3);
@@ -64,7 +64,7 @@ TEST(FieldDistance, IsALowerBoundBeyondTheDomain)
     EXPECT_EQ(untouched.m_gap, 0);
 }
 
-// The true nearest point is found on a fine grid.
+// The oracle is the minimum over a fine grid.
 TEST(FieldDistance, TriangleDistanceIsTheMinimumOverTheTriangle)
 {
     const auto ball = ballField();
@@ -82,7 +82,7 @@ TEST(FieldDistance, TriangleDistanceIsTheMinimumOverTheTriangle)
                 const double a = i / double(kSteps), b = j / double(kSteps);
                 least = std::min(least, norm(a * t[0] + b * t[1] + (1 - a - b) * t[2]) - kBallOfField);
             }
-        if (least < -0.3) continue;  // where the cubics are no ball
+        if (least < -0.3) continue;  // near the centre the cubic field is no ball
         SurfaceDistance d;
         ASSERT_TRUE(triangleFieldDistance(*ball, t, 10, d));
         EXPECT_NEAR(d.m_gap, least, 5e-3);
@@ -118,7 +118,7 @@ TEST(FieldDistance, FieldsAreLeavesWhenTheyAreLoaded)
     ASSERT_TRUE(pointShapeDistance(leaves[0], {0, 0, 5.9}, 10, d));
     EXPECT_NEAR(d.m_gap, 0.3, 1e-3);
     EXPECT_NEAR(d.m_normal.z, 1, 1e-3);
-#ifdef NDEBUG  // else Bullet stops at its own assertions
+#ifdef NDEBUG  // Bullet's own assertions stop a debug build
     btSdfCollisionShape empty;
     object.setCollisionShape(&empty);
     EXPECT_EQ(collectShapeLeaves(object, leaves), 1);

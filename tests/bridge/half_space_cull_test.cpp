@@ -14,7 +14,7 @@ namespace
 
 constexpr double kFar = 0.1;  // [m]
 
-// What the proof replaces: the nearest triangle, and on which side of its normal the point lies.
+// The oracle: by the nearest triangle, and by the side of its normal on which the point lies.
 bool isFarOutside(const SoftSurface& surface, const Vec3& p)
 {
     TrianglePoint nearest;
@@ -24,7 +24,7 @@ bool isFarOutside(const SoftSurface& surface, const Vec3& p)
     return norm(r) > kFar && !(dot(r, surface.normalAt(t, nearest)) < 0);
 }
 
-// Points that are proved to be far outside; the search has to agree with all of them.
+// Counts points that the cull proves to be far outside; the oracle must agree for each.
 template <class Move>
 int proved(const TetMesh& mesh, Move move)
 {
@@ -60,8 +60,7 @@ TEST(HalfSpaceCull, AgreesWithTheNearestTriangleOfACrumpledBody)
     EXPECT_GT(proved(makeSphere(1, 6), [&](const Vec3& X) { return X + 0.1 * random.point(); }), 300);
 }
 
-// Where elements are turned inside out the normals say that what is outside were inside: what is not proved is
-// searched.
+// Inverted elements have normals that point inwards, so the cull proves nothing there and the points are searched.
 TEST(HalfSpaceCull, AgreesWithTheNearestTriangleOfAnInvertedBody)
 {
     const auto pushedThrough = [](const Vec3& X) { return norm(X - Vec3{0, 0, 1}) < 0.3 ? Vec3{X.x, X.y, -1.4} : X; };

@@ -17,7 +17,7 @@
 namespace bullet_fem
 {
 
-/// A world that holds objects and is never stepped: soft cubes of 1 m, made FEM by hand, and rigid bodies.
+/// A world that is never stepped, with soft FEM cubes of 1 m, prepared by hand, and rigid bodies.
 class JointTestWorld
 {
 public:
@@ -60,7 +60,7 @@ public:
         delete &body;
     }
 
-    /// Joints of all cubes that are not outside.
+    /// Appends the joints of all cubes that are not flagged as outside.
     ContactProblem& append(RigidPhase phase = RigidPhase::moved)
     {
         m_problem.clear();
@@ -95,7 +95,7 @@ inline void expectNear(const Vec3& a, const Vec3& b, double tolerance)
     EXPECT_LT(norm(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
-/// Gives the only joint of `a`, to `b`, an impulse [N s]; each of the two must report its own.
+/// Gives the only joint between `a` and `b` an impulse [N s]; each body must report its own, with opposite signs.
 inline void expectOppositeImpulses(ContactProblem& problem, FemSoftBody& a, FemSoftBody& b, const Vec3& impulse)
 {
     ASSERT_EQ(problem.m_joints.size(), 1u);

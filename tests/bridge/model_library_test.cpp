@@ -98,7 +98,7 @@ TEST_F(ModelLibraryTest, FactorsOfAnotherMaterialAreBorrowedAndNeverTakenForFres
     EXPECT_FALSE(m_library.findExact(wooden, input));
     const auto own = m_library.model(wooden, input);
     EXPECT_NE(own, borrowed);
-    EXPECT_EQ(m_library.modelWithFactor(wooden, input, factored), own);  // which fits better
+    EXPECT_EQ(m_library.modelWithFactor(wooden, input, factored), own);  // this one fits better
 }
 
 TEST_F(ModelLibraryTest, ShapesMadeElsewhereAreTakenInUnlessThereIsOneLikeThem)

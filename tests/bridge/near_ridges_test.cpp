@@ -49,7 +49,7 @@ class PlacedRidges : public testing::TestWithParam<Vec3>
 {
 };
 
-// Exactly, in double precision: the lines cross between the ends, and near each other.
+// The exact test in double precision: the lines cross between their end points at a small distance.
 bool crossNearby(const TestEdge& a, const TestEdge& b)
 {
     LineParameters at;
@@ -113,7 +113,7 @@ struct TestSurface
         m_surface.update(x, v, 1);
     }
 
-    // Points along a ridge, at some times until two steps later.
+    // Points along a ridge at several times within two steps.
     std::vector<Vec3> trace(int edge, double time) const
     {
         const auto [a, b] = m_surface.features().m_edges[edge];
@@ -148,7 +148,7 @@ double minDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return least;
 }
 
-// Two balls that close in on each other at an angle to all axes.
+// Two balls approach each other along an oblique direction.
 TEST(NearRidges, IncludesAllPossibleContactsAndFewMore)
 {
     Random random;

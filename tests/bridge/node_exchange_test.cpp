@@ -29,7 +29,7 @@ protected:
 
 TEST_F(NodeExchange, LoadsOnlyComponentsWrittenByTheUser)
 {
-    state().m_x[3] = {1.00000000123, 2.00000000456, 3.00000000789};  // more digits than Bullet's float holds
+    state().m_x[3] = {1.00000000123, 2.00000000456, 3.00000000789};  // more digits than Bullet's float has
     writeNodes(m_fem);
     node(3).m_x.setY(5);
     readNodes(m_fem);
@@ -118,7 +118,7 @@ TEST_F(NodeExchange, DropsNonFiniteForces)
     EXPECT_EQ(node(2).m_f, btVector3(0, 0, 0));
 }
 
-// A pressure of 1e30, say.
+// A pressure of 1e30, for example.
 TEST_F(NodeExchange, DropsForcesAboveTheLimit)
 {
     double mass = 0;

@@ -9,7 +9,7 @@
 namespace bullet_fem
 {
 
-/// Numbers and vectors in [-1, 1], the same in every run.
+/// Numbers and vectors in [-1, 1] from a fixed seed.
 class Random
 {
 public:

@@ -25,7 +25,7 @@ std::vector<Vec3> relativeToFirst(const btSoftBody& body)
     return x;
 }
 
-// A long walk: 40 cells, whose rounding does not add up to more than a hundred-thousandth of an edge.
+// Along 40 cells rounding errors stay below 1e-5 of an edge.
 TEST(RestPositions, AreFoundByWalkingOverTheElements)
 {
     btSoftBodyWorldInfo info;
@@ -33,11 +33,11 @@ TEST(RestPositions, AreFoundByWalkingOverTheElements)
     body->rotate(btQuaternion(btVector3(1, 2, 3).normalized(), btScalar(1)));
     body->initializeDmInverse();
     const std::vector<Vec3> rest = relativeToFirst(*body);
-    for (int i = 1; i < body->m_nodes.size(); ++i)  // all but node 0, about which the whole is laid over
+    for (int i = 1; i < body->m_nodes.size(); ++i)  // all but node 0, which is the reference point of the layout
         body->m_nodes[i].m_x += btVector3(0, 0, btScalar(0.05 * std::sin(7.0 * i)));
     const RestPositions found = restPositionsOf(*body, tetsOf(*body));
     EXPECT_TRUE(found.m_fromMatrices);
-    // It is turned to fit what the body looks like now: compare lengths.
+    // Only lengths are compared: the rest shape is rotated to fit the present positions.
     for (std::size_t i = 1; i < rest.size(); ++i) EXPECT_NEAR(norm(found.m_X[i]), norm(rest[i]), 1e-6) << i;
 }
 
@@ -63,13 +63,13 @@ TEST(RestPositions, EachComponentLiesOverItsPresentPlace)
     btSoftBodyWorldInfo info;
     const auto body = makeSoftBody(info, TetMesh(X, tets));
     body->initializeDmInverse();
-    for (int i = 8; i < 16; ++i)  // the second one is twice as large, and farther away
+    for (int i = 8; i < 16; ++i)  // the second component is twice as large, and farther away
         body->m_nodes[i].m_x = btScalar(2) * body->m_nodes[i].m_x + btVector3(0, 0, 5);
     const RestPositions found = restPositionsOf(*body, tetsOf(*body));
     EXPECT_TRUE(found.m_fromMatrices);
     for (int i = 0; i < 16; ++i)
     {
-        const Vec3 expected = i < 8 ? X[i] : X[i] + Vec3{3.5, .5, 5.5};  // its centre was at 3.5, and is at 7
+        const Vec3 expected = i < 8 ? X[i] : X[i] + Vec3{3.5, .5, 5.5};  // its centre moved from 3.5 to 7
         EXPECT_LT(norm(found.m_origin + found.m_X[i] - expected), 1e-5) << i;
     }
 }
@@ -82,7 +82,7 @@ TEST(RestPositions, AreThePresentOnesWithoutMatrices)
     EXPECT_EQ(largestError(found.m_X, relativeToFirst(*box.m_body)), 0);
 }
 
-// Elements of negative orientation have a negative rest volume and the matrix of that.
+// Elements of negative orientation have a negative rest volume and the corresponding matrix.
 TEST(RestPositions, AreFoundForElementsOfNegativeOrientation)
 {
     const TestBox box;
@@ -97,7 +97,7 @@ TEST(RestPositions, AreFoundForElementsOfNegativeOrientation)
     EXPECT_EQ(restMeshOf(*box.m_body).m_mesh.turnedCount(), (box.m_body->m_tetras.size() + 1) / 2);
 }
 
-// Bullet moves the nodes when it appends one, and forgets the tetrahedra's pointers.
+// Bullet reallocates the nodes when it appends one, and leaves the tetrahedra's pointers dangling.
 TEST(RestPositions, RejectElementsWithInvalidNodePointers)
 {
     const TestBox box;

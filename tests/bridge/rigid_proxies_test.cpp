@@ -21,7 +21,7 @@ protected:
     btRigidBody m_body{btRigidBody::btRigidBodyConstructionInfo(2, nullptr, &m_sphere, btVector3(1, 1, 1))};
     RigidProxies m_rigidProxies;
 
-    // With an impulse on the soft body, and with what the solve has made of the rigid proxy's velocities by it.
+    // A contact with an impulse on the soft body; the rigid proxy's velocity is updated as the solve does.
     ContactProblem contact(const Vec3& impulse, const Vec3& point)
     {
         ContactPoint result;

@@ -14,16 +14,16 @@
 namespace bullet_fem
 {
 
-/// A signed distance to be sampled, in a box about the origin.
+/// A signed distance function and the box about the origin in which it is sampled.
 struct SampledField
 {
     std::function<double(const Vec3&)> m_distance;
     Vec3 m_halfSize = {1, 1, 1};  ///< of the domain [m]
-    unsigned m_cells = 8;         ///< along every axis
+    unsigned m_cells = 8;         ///< along each axis
 };
 
-/// The file that btSdfCollisionShape reads: on every cell a cubic with 32 nodes, its corners and two on every edge, as
-/// its shape functions number them.
+/// The bytes that btSdfCollisionShape reads: cubic cells of 32 nodes (8 corners and two points on each edge), in the
+/// order of its shape functions.
 inline std::vector<char> sdfFile(const SampledField& field)
 {
     std::vector<char> file;
@@ -43,7 +43,7 @@ inline std::vector<char> sdfFile(const SampledField& field)
     write(one);
     std::vector<Vec3> nodes;  // in [-1, 1]^3
     for (int k = 0; k < 8; ++k) nodes.push_back({k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0});
-    // Along every axis: the fast one of the two others, then the slow one.
+    // For each edge axis the two other axes: the fast index, then the slow one.
     const std::array<std::array<int, 3>, 3> edges = {{{0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
     for (const auto& [along, fast, slow] : edges)
         for (double s : {-1.0, 1.0})
@@ -78,7 +78,7 @@ inline std::vector<char> sdfFile(const SampledField& field)
     return file;
 }
 
-/// Takes no data if it is not loaded.
+/// A btSdfCollisionShape of the sampled field.
 inline btSdfCollisionShape* makeSdf(const SampledField& field)
 {
     const std::vector<char> file = sdfFile(field);

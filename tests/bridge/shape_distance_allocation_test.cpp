@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// A program of its own: it replaces operator new and Bullet's allocators by counting ones.
+//
+// Distance queries allocate nothing. A separate program: it replaces operator new and Bullet's allocators by counting
+// ones.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -34,7 +36,7 @@ void* countedAlignedAlloc(std::size_t size, int alignment)
 
 }  // namespace
 
-// The compiler sees one of the pair inlined and not the other.
+// The compiler inlines only one of the pair.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 
 void* operator new(std::size_t size)

@@ -28,7 +28,7 @@ SurfaceDistance distanceTo(btCollisionShape& shape, const Vec3& point)
     return d;
 }
 
-/// A value worked out by hand. Sizes are binary fractions, so only Bullet's floats of the margin leave an error.
+/// A value computed by hand. Sizes are binary fractions, so that the only error is that of Bullet's float margin.
 struct HandValue
 {
     const char* m_what;
@@ -134,7 +134,7 @@ TEST(PointShapeDistance, MatchesHandValuesForCone)
 TEST(PointShapeDistance, MatchesHandValuesForPlane)
 {
     btStaticPlaneShape plane(btVector3(3, 4, 0), 2);
-    plane.setMargin(0.5);  // Bullet's rigid bodies do not feel a plane's margin
+    plane.setMargin(0.5);  // rigid bodies in Bullet ignore a plane's margin
     expectHandValues(plane,
                      {{"above", {0.6 * 5, 0.8 * 5, 7}, 3, {0.6, 0.8, 0}},
                       {"deep below", {-0.6 * 50, -0.8 * 50, 7}, -52, {0.6, 0.8, 0}}},
@@ -165,7 +165,7 @@ TEST(PointShapeDistance, MatchesHandValuesForFlatHulls)
     expectHandValues(square, {{"above", {0.5, 1, 0.25}, 0.875, {0, 1, 0}},
                               {"close below", {0.5, -0.0625, 0.25}, -0.0625, {0, -1, 0}},
                               {"beside", {2, 0, 0.5}, 0.875, {1, 0, 0}}});
-    EXPECT_NEAR(distanceTo(square, {0.5, 0, 0.25}).m_gap, -0.125, 1e-12);  // in its plane: either side will do
+    EXPECT_NEAR(distanceTo(square, {0.5, 0, 0.25}).m_gap, -0.125, 1e-12);  // in its plane either side is correct
     EXPECT_NEAR(std::abs(distanceTo(square, {0.5, 0, 0.25}).m_normal.y), 1, 1e-12);
 
     btConvexHullShape rod, dot;
@@ -236,9 +236,8 @@ protected:
     RandomPoints m_random;
 };
 
-// Bullet rounds edges with the margin, which is 1 mm here: at a corner its gap is up to (sqrt 3 - 1) mm larger. Its GJK
-// ends at 1e-4 of the distance, or when two support points are nearer than 1 cm: 1e-4 m on a round surface of this
-// size.
+// Bullet rounds edges with the margin, here 1 mm: at a corner its gap is up to (sqrt 3 - 1) mm larger. Its GJK stops at
+// a relative 1e-4, or when two support points are within 1 cm: 1e-4 m on a round surface of this size.
 TEST_P(EveryConvexSolid, AgreesWithBulletsGjkOutside)
 {
     m_shape->setMargin(btScalar(1e-3));
@@ -262,7 +261,7 @@ TEST_P(EveryConvexSolid, AgreesWithBulletsGjkOutside)
     EXPECT_GT(outside, 500);
 }
 
-// The gap grows by the step along its normal, outside and inside; going inward it may cease to, behind the medial axis.
+// The gap grows by the step along its normal, outside and inside; inwards the law ends at the medial axis.
 TEST_P(EveryConvexSolid, NormalIsTheGradient)
 {
     const double step = 1e-4, accuracy = GetParam().m_pointAccuracy;
@@ -279,8 +278,7 @@ TEST_P(EveryConvexSolid, NormalIsTheGradient)
     }
 }
 
-// Bullet's rotation is a float matrix, made orthonormal here: distances are those of the local frame to double
-// rounding.
+// Bullet's float rotation is orthonormalised here, so that distances equal those of the local frame to double rounding.
 TEST_P(EveryConvexSolid, IsInvariantUnderRigidMotion)
 {
     for (int i = 0; i < 300; ++i)
@@ -295,7 +293,7 @@ TEST_P(EveryConvexSolid, IsInvariantUnderRigidMotion)
     }
 }
 
-// Points on a lattice of 1/1024 m are exact at 100 m too, so that the local coordinates are the same numbers.
+// Points on a lattice of 1/1024 m are exact at 100 m, so that local coordinates are bitwise equal.
 TEST_P(EveryConvexSolid, HasNoNoiseFarFromTheOrigin)
 {
     const ShapeLeaf far = leafOf(*m_shape, btTransform(btQuaternion::getIdentity(), btVector3(100, -100, 100)));

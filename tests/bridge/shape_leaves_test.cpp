@@ -110,7 +110,7 @@ TEST(ShapeLeaves, CompoundsPlaceTheirChildren)
     const Collected c(compound, turned(100, 0, 0));
     EXPECT_EQ(c.m_unknown, 0);
     ASSERT_EQ(c.m_leaves.size(), 2);
-    // The whole is turned by 90 degrees, so x goes to y and y to -x.
+    // A rotation by 90 degrees: x goes to y and y to -x.
     EXPECT_NEAR(c.gap(0, {100, 4, 3}), 2, 1e-12);
     EXPECT_NEAR(c.gap(0, {100, 4, -3}), 2, 1e-12);
     EXPECT_NEAR(c.gap(1, {100 - 8 + 3, 0, 0}), 2, 1e-6);  // turned twice: half extents 1, 2, 3 again

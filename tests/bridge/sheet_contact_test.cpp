@@ -35,7 +35,7 @@ protected:
     {
         for (Vec3& v : m_fem.m_body.m_state.m_v) v = velocity;
     }
-    /// Every one of the nine nodes below is in one contact with this normal and gap, and nothing else is.
+    /// Each of the nine lower nodes has exactly one contact with this normal and gap, and there are no others.
     void expectFlat(const Vec3& normal, double gap)
     {
         EXPECT_EQ(m_fem.m_contacts.size(), 9u);
@@ -163,14 +163,14 @@ TEST_P(FlatSheetTest, KinematicSheetIsUsedAtItsPoseAtStepStart)
 {
     m_ground.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     m_ground.setInterpolationLinearVelocity({0, 0, 3});
-    find(m_sheet, m_atZero + btScalar(3 * kStep));  // it has moved already
+    find(m_sheet, m_atZero + btScalar(3 * kStep));  // it has already moved
     ASSERT_NEAR(m_rigidProxies.rigidProxies().at(0).m_linearVelocity.z, 3, 1e-6);
     expectFlat({0, 0, 1}, 0);
 }
 
 TEST_F(SheetContactTest, RotatingKinematicSheetMovesAlongAnArc)
 {
-    constexpr double turn = 0.05, height = 2;  // in the step [rad], and of the axis [m]
+    constexpr double turn = 0.05, height = 2;  // rotation within the step [rad], and height of the axis [m]
     GridSettings below;
     below.m_height = [](btScalar, btScalar) { return -btScalar(height); };
     const ConcaveShape shape = makeTriangleMesh(below);
@@ -275,7 +275,7 @@ TEST_F(SheetContactTest, BodyHittingASlopeSidewaysIsStoppedOrBroughtBack)
     valley.m_height = [](btScalar x, btScalar) { return x > 1 ? btScalar(0.5) * (x - 1) : 0; };
     const ConcaveShape shape = makeTriangleMesh(valley);
     move({-0.75, 0.013, 1e-4});
-    setVelocity({60, 0, 0});  // 1 m a step, along the floor and 0.25 m into the slope
+    setVelocity({60, 0, 0});  // 1 m a step along the floor, and 0.25 m into the slope
     find(shape);
     const auto blocks = [](const ContactPoint& c) { return c.m_normal.x < -0.1; };
     EXPECT_TRUE(std::any_of(m_fem.m_contacts.begin(), m_fem.m_contacts.end(), blocks));
@@ -287,7 +287,7 @@ TEST_F(SheetContactTest, BodyHittingASlopeSidewaysIsStoppedOrBroughtBack)
 
 TEST_F(SheetContactTest, SlippingOffAThinEdgeIsNotHeldByTheFaceBehind)
 {
-    // An acute wedge whose upper face is the floor: above it, its lower face does not count.
+    // An acute wedge whose upper face is the floor: above it the lower face makes no contact.
     ConcaveShape shape;
     shape.m_mesh->addTriangle({btScalar(0.9), -3, 0}, {btScalar(0.9), 4, 0}, {-2, -3, 0});
     shape.m_mesh->addTriangle({btScalar(0.9), 4, 0}, {-2, 4, 0}, {-2, -3, 0});
@@ -308,7 +308,7 @@ TEST_F(SheetContactTest, DegenerateTrianglesAreOmitted)
     const btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
     shape.m_mesh->addTriangle({0, 0, 0}, {1, 1, 0}, {2, 2, 0});
     shape.m_mesh->addTriangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
-    addGrid(*shape.m_mesh, {});  // all of them twice, wound otherwise
+    addGrid(*shape.m_mesh, {});  // each triangle twice, with opposite winding
     shape.make<btGImpactMeshShape>(shape.m_mesh.get());
     auto& gimpact = static_cast<btGImpactMeshShape&>(shape.shape());
     gimpact.setMargin(0);

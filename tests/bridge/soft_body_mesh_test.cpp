@@ -68,7 +68,7 @@ TEST(SoftBodyMesh, UnusableMassesBecomeTheShareOfTheVolume)
     const std::vector<double> share = lumpedMasses(tetMeshOf(*box.m_body), {}, 1);
     bool repaired = false;
     for (int i = 0; i < box.m_body->m_nodes.size(); ++i) box.m_body->m_nodes[i].m_im = btScalar(1 / (50 * share[i]));
-    box.m_body->m_nodes[0].m_im = 0;  // pinned: no repair
+    box.m_body->m_nodes[0].m_im = 0;  // pinned nodes need no repair
     sanitisedMasses(*box.m_body, share, repaired);
     EXPECT_FALSE(repaired);
     box.m_body->m_nodes[1].m_im = std::numeric_limits<btScalar>::infinity();

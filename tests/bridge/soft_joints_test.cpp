@@ -21,7 +21,8 @@ protected:
     btSoftBody& soft() { return *m_cube.m_softBody; }
     Vec3 position(int node) const { return m_cube.m_body.m_state.m_x[node]; }
 
-    /// Where the node ends the step if the joint gets what it wants and the object keeps the velocity it has.
+    /// The node's position at the end of the step if the joint reaches its target velocity and the object keeps its
+    /// velocity.
     Vec3 endOfNode(const Joint& joint, int node, const btRigidBody& body) const
     {
         const Vec3 arm = joint.m_b.m_point - m_world.m_rigidProxies.rigidProxies()[joint.m_b.m_rigidProxy].m_center;
@@ -46,7 +47,7 @@ TEST_F(SoftAnchorTest, JoinsItsNodeToTheRigidBody)
     EXPECT_EQ(squaredNorm(problem.m_handleBlocks[joint.m_a.m_first] - Mat3::identity()), 0);
     EXPECT_EQ(&m_world.m_rigidProxies.object(joint.m_b.m_rigidProxy), &wall);
     expectNear(joint.m_b.m_point, position(5), 1e-12);
-    expectNear(joint.m_wanted, {}, 1e-5);  // what single precision left of the pivot, over the step
+    expectNear(joint.m_wanted, {}, 1e-5);  // single precision rounding of the pivot, over the step
     EXPECT_EQ(joint.m_softness, 0);
 }
 
@@ -191,7 +192,7 @@ TEST_F(SoftAnchorTest, ReinsertedBodyIsStillHeld)
     btRigidBody& wall = m_world.addRigid(0);
     soft().appendAnchor(5, &wall);
     m_world.append();
-    m_world.world().removeRigidBody(&wall);  // Bullet's way to change a mass
+    m_world.world().removeRigidBody(&wall);  // Bullet's procedure to change a mass
     m_world.world().addRigidBody(&wall);
     EXPECT_EQ(m_world.append().m_joints.size(), 1u);
     EXPECT_FALSE(m_world.m_flags[0].m_lost);
@@ -321,7 +322,7 @@ TEST_F(NodeAttachmentTest, JoinsANodeToAPointOfAnotherBody)
     EXPECT_EQ(problem.m_handleBlocks[joint.m_b.m_first + 1](2, 2), 0.75);
     const std::vector<Vec3>& x = m_other.m_body.m_state.m_x;
     const Vec3 gap = 0.25 * x[0] + 0.75 * x[1] - position(3);
-    EXPECT_LT(norm(cross(joint.m_wanted, gap)), 1e-12);  // the way to the point
+    EXPECT_LT(norm(cross(joint.m_wanted, gap)), 1e-12);  // the direction to the point
     EXPECT_GT(dot(joint.m_wanted, gap), 0);
 }
 
@@ -340,7 +341,7 @@ TEST_F(NodeAttachmentTest, ABodyOutsideTheSolveStandsStill)
     const Joint joint = m_world.append().m_joints[0];
     EXPECT_EQ(joint.m_b.m_body, -1);
     EXPECT_EQ(joint.m_b.m_rigidProxy, -1);
-    EXPECT_TRUE(m_world.m_flags[0].m_outside);  // awake: it should have been solved together
+    EXPECT_TRUE(m_world.m_flags[0].m_outside);  // awake: the two should have been solved together
 }
 
 TEST_F(NodeAttachmentTest, KnowsBothItsSides)
@@ -349,7 +350,7 @@ TEST_F(NodeAttachmentTest, KnowsBothItsSides)
     EXPECT_TRUE(isAttached(m_cube, {9, 3, 8}, m_other));
     EXPECT_FALSE(isAttached(m_cube, {9, 4, 8}, m_other));
     EXPECT_TRUE(isAttached(m_other, {9, 1, 8}, m_cube));
-    EXPECT_FALSE(isAttached(m_other, {9, 2, 8}, m_cube));  // has no weight
+    EXPECT_FALSE(isAttached(m_other, {9, 2, 8}, m_cube));  // weights of zero attach nothing
 }
 
 TEST_F(NodeAttachmentTest, AnAwakeBodyOutsideTheSolveIsKnownToReachIn)

@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-// Where fewer contacts are found than before, nothing is allocated.
+// A search that finds fewer contacts than the one before allocates nothing.
 TEST(SoftPairAllocation, NothingIsAllocatedOnceTheListsHaveGrown)
 {
     PairBody upper(makeBox({1, 1, 1}, {4, 4, 4})), lower(makeSphere(1, 6));

@@ -12,7 +12,7 @@
 namespace bullet_fem
 {
 
-/// Turns about all axes.
+/// A rotation about all three axes.
 inline Mat3 testRotation(double a, double b, double c)
 {
     const Mat3 x = {{{1, 0, 0}, {0, std::cos(a), -std::sin(a)}, {0, std::sin(a), std::cos(a)}}};
@@ -35,7 +35,7 @@ inline TetMesh uprightTip()
     return TetMesh({{0.3, 0.41, 0}, {0.2, 0.3, 0.5}, {0.4, 0.3, 0.5}, {0.3, 0.6, 0.5}}, {{0, 1, 2, 3}});
 }
 
-/// A mesh without the elements whose middle is where `isOut` says, and without the nodes that only they had.
+/// A copy of the mesh without the elements whose centroid satisfies `isOut`, and without nodes used only by them.
 template <class Predicate>
 TetMesh without(const TetMesh& mesh, Predicate isOut)
 {
@@ -61,7 +61,7 @@ TetMesh without(const TetMesh& mesh, Predicate isOut)
     return TetMesh(std::move(X), std::move(tets));
 }
 
-/// A FEM body of any mesh, outside any world, whose surface can be put anywhere.
+/// A FEM body of any mesh, outside any world, with freely set surface positions.
 class PairBody
 {
 public:
@@ -111,7 +111,7 @@ public:
     FemSoftBody m_fem;
 };
 
-/// What a finder finds between two bodies, or within one.
+/// The contacts between two bodies, or within one.
 struct PairContacts
 {
     PairContacts(PairBody& a, PairBody& b, int most = 100000)
@@ -128,7 +128,7 @@ struct PairContacts
                                               [&](const SoftPairOrigin& o) { return o.m_kind == kind; }));
     }
 
-    /// As if they had been solved.
+    /// The contacts as if solved.
     SoftPairMemory::Contacts solved() const { return {m_contacts.data(), m_origins.data(), m_contacts.size()}; }
 
     SoftPairMemory m_memory;
@@ -138,7 +138,7 @@ struct PairContacts
     std::vector<SoftPairOrigin> m_origins;
 };
 
-/// All normals are along z, from the lower body (1) to the upper one (0) or opposite, and gaps are `gap`.
+/// Expects normals along z, signed from the lower body (1) to the upper one (0), and gaps of `gap`.
 inline void expectAlongZ(const PairContacts& found, double gap)
 {
     for (const ContactPoint& c : found.m_contacts)

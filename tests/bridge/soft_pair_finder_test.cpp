@@ -72,7 +72,7 @@ TEST(SoftPairFinder, TheGapOfATipIsExactOnBothSidesOfTheFace)
     }
 }
 
-// Neither moves relative to the other, but the ground may hold the lower one.
+// The bodies have no relative velocity, but the ground may stop the lower one.
 TEST(SoftPairFinder, SmallBodiesContactIfGravityClosesTheGapInAStep)
 {
     const double fall = 10.0 / (60 * 60), edgeOfUnitCube = cube().meanEdgeLength();  // [m], [-]
@@ -109,9 +109,9 @@ TEST(SoftPairFinder, FindsExactlyTheContactsClosingWithinTheStep)
     const PairContacts closing(upper, lower);
     EXPECT_GE(closing.m_contacts.size(), 8u);
     expectAlongZ(closing, 0.1);
-    lower.throwAt({0, 0, -11});  // runs away
+    lower.throwAt({0, 0, -11});  // moves away
     EXPECT_TRUE(PairContacts(upper, lower).m_contacts.empty());
-    // What both have in common does not matter.
+    // A common velocity does not matter.
     upper.throwAt({300, 0, -10});
     lower.throwAt({300, 0, -3});
     EXPECT_EQ(PairContacts(upper, lower).m_contacts.size(), closing.m_contacts.size());
@@ -136,7 +136,7 @@ TEST(SoftPairFinder, FastBodiesMeetThinPlatesManyThicknessesAway)
     EXPECT_TRUE(PairContacts(ball, plate).m_contacts.empty());
 }
 
-// Both ways of asking find the same points.
+// Both orders of the pair find equal points.
 TEST(SoftPairFinder, ExchangingTheBodiesChangesTheOrderOnly)
 {
     PairBody a(makeSphere(0.5, 6)), b(makeSphere(0.4, 4));
@@ -156,7 +156,7 @@ class PlacedPairs : public testing::TestWithParam<int>
 {
 };
 
-// Turned and moved as one, to 100 m away, a pair has the same contacts.
+// A pair that is rotated and moved 100 m away has equal contacts.
 TEST_P(PlacedPairs, HaveTheSameContactPoints)
 {
     PairBody a(makeSphere(0.5, 6)), b(cube(3));
@@ -202,7 +202,7 @@ double signedDistance(const SoftSurface& surface, const Vec3& p)
     return isInside(surface, p) ? -least : least;
 }
 
-// Against all pairs: the nodes of two overlapping balls that are within the band or inside.
+// The oracle is a search over all pairs: nodes of two overlapping balls within the band or inside.
 TEST(SoftPairFinder, MatchesBruteForceOverAllPairs)
 {
     std::mt19937 random(7);
@@ -279,12 +279,12 @@ TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
     EXPECT_TRUE(std::is_sorted(origins.begin(), origins.end()));
     found.m_memory.remember({before.data(), origins.data(), before.size()});
     found.m_memory.beginStep();
-    upper.move({0.21, 0, 0}).ready();  // nodes lie over other triangles now
+    upper.move({0.21, 0, 0}).ready();  // now the nodes are over other triangles
     found.m_contacts.clear();
     found.m_origins.clear();
     found.m_finder.find({upper.m_fem, 0}, {lower.m_fem, 1}, 1000, found.m_contacts, found.m_origins);
     int taken = 0;
-    double sum = 0, sumBefore = 0;  // on the first body
+    double sum = 0, sumBefore = 0;  // over the first body
     const auto onFirst = [](const ContactPoint& c, const SoftPairOrigin& origin)
     { return origin.m_kind == SoftPairKind::nodeOfSecond ? -c.m_impulse.z : c.m_impulse.z; };
     for (std::size_t k = 0; k < before.size(); ++k) sumBefore += onFirst(before[k], origins[k]);
@@ -299,7 +299,7 @@ TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)
         const auto last = std::find_if(origins.begin(), origins.end(), isSame);
         sum += onFirst(found.m_contacts[k], now);
         if (last == origins.end()) continue;
-        // Its own, and what contacts near it that are gone have left.
+        // Its own impulse, and the impulses of lost contacts near it.
         const double own = before[last - origins.begin()].m_impulse.z;
         taken += found.m_contacts[k].m_impulse.z == own ? 1 : 0;
     }

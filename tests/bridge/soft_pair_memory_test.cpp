@@ -16,7 +16,7 @@ struct Given
     int m_first, m_second, m_feature;
 };
 
-// Remembers a contact each, whose gap is its place in the list; the next step begins.
+// Remembers one contact for each entry, with its index as gap, and begins the next step.
 void remember(SoftPairMemory& memory, const std::vector<Given>& given)
 {
     std::vector<ContactPoint> contacts(given.size());
@@ -41,7 +41,7 @@ std::vector<double> gapsOf(const SoftPairMemory::Last& last)
 
 using Gaps = std::vector<double>;
 
-// In whatever order they came; those of the same origin as they did. Of the step before nothing is left.
+// Contacts come in any order; those of one origin keep their order. The step before the last is forgotten.
 TEST(SoftPairMemory, HasTheContactsOfAPairInTheOrderOfTheirOrigins)
 {
     SoftPairMemory memory;

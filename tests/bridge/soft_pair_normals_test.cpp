@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Which way out a pair of soft bodies is shown: of several faces in reach, and of overlaps.
+//
+// Contact normals of pairs of soft bodies: with several faces in reach, and in overlaps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +77,7 @@ TEST(SoftPairNormals, ATipSunkIntoTheFloorOfAGrooveIsHeldByItsWallToo)
     }
 }
 
-// Four nearly equal faces meet under the tip: none of them comes first.
+// Four nearly equal faces meet under the tip: none is preferred.
 TEST(SoftPairNormals, MeanNormalIsUsedOverAFlatCorner)
 {
     PairBody tip(TetMesh({{0, 0, 0}, {-0.1, -0.11, 0.5}, {0.1, -0.1, 0.5}, {0, 0.2, 0.5}}, {{0, 1, 2, 3}}));

@@ -16,7 +16,7 @@ namespace
 constexpr double kSearchStep = 1.0 / 60;
 constexpr int kManyContacts = 1000;
 
-// A unit cube that lies flush on another one, and rests; outside any world.
+// A unit cube at rest, flush on another one, outside any world.
 class SoftPairSearchTest : public testing::Test
 {
 protected:
@@ -37,7 +37,7 @@ protected:
         all.assign(all.size(), v);
     }
 
-    /// How many pairs a step searches in; it remembers what it has found only if it is solved.
+    /// The number of pairs searched in a step; contacts are remembered only if the step is solved.
     int searched(int maxContacts = kManyContacts, bool isSolved = true)
     {
         m_search.beginStep();
@@ -132,7 +132,7 @@ TEST_F(SoftPairSearchTest, OneMovedNodeTriggersASearch)
     EXPECT_EQ(searched(), 1);
 }
 
-// However small its steps are.
+// The smallest steps accumulate to a search, too.
 TEST_F(SoftPairSearchTest, CreepingPairIsSearchedOccasionally)
 {
     searched();
@@ -142,7 +142,7 @@ TEST_F(SoftPairSearchTest, CreepingPairIsSearchedOccasionally)
         moveUpper({0.001 * m_edge, 0, 0});
         searches += searched();
     }
-    EXPECT_EQ(searches, 5);  // 7 steps of .001 edges are more than .00625
+    EXPECT_EQ(searches, 5);  // 7 steps of .001 edges exceed .00625
 }
 
 TEST_F(SoftPairSearchTest, PairExpectedToMoveIsSearched)
@@ -155,7 +155,7 @@ TEST_F(SoftPairSearchTest, PairExpectedToMoveIsSearched)
     EXPECT_EQ(searched(), 0);
 }
 
-// The solver of a coupled step may hand it back before it is solved.
+// The solver of a monolithic step may return it unsolved.
 TEST_F(SoftPairSearchTest, UnsolvedPairIsSearchedAgain)
 {
     searched();
@@ -176,11 +176,11 @@ TEST_F(SoftPairSearchTest, PreviouslySeparatePairIsSearched)
     EXPECT_EQ(searched(), 1);
 }
 
-// What was left out may come to matter.
+// A contact left out at the limit may matter in the next step.
 TEST_F(SoftPairSearchTest, PairAboveTheContactLimitIsSearched)
 {
     searched();
-    EXPECT_EQ(searched(4), 0);  // has all of them
+    EXPECT_EQ(searched(4), 0);  // no contact is left out
     EXPECT_EQ(m_search.contacts().size(), 4u);
     EXPECT_TRUE(m_search.isLimited(0));
     EXPECT_EQ(searched(4), 1);
@@ -198,7 +198,7 @@ TEST_F(SoftPairSearchTest, PairWithForgottenPlaceIsSearched)
     EXPECT_EQ(searched(), 0);
 }
 
-// Four times what a body may move is half the contact band of the finer one.
+// A body may move by a quarter of half the finer body's contact band.
 TEST_F(SearchOfAFineCube, LooksFromItsEdges)
 {
     searched();

@@ -45,7 +45,7 @@ TEST_P(UndeformedBodies, HaveNoSelfContactUnderModerateDeformation)
 
 INSTANTIATE_TEST_SUITE_P(Shapes, UndeformedBodies, testing::Range(0, 6));
 
-// Folds a strip along x about the line x = 1 into two layers, `distance` apart inside, with a round fold.
+// Folds a strip along x about x = 1 into two layers with inner faces `distance` apart, joined by a round fold.
 Vec3 folded(const Vec3& X, double distance)
 {
     const double r = 0.5 * distance, s = X.x - 1, half = 0.5 * 3.14159265358979 * r;
@@ -62,7 +62,7 @@ TEST(SelfPair, LayersOfAFoldedStripAreInContact)
     for (double distance : {0.004, -0.004, -0.03})
     {
         PairBody body(makeBox({2, 0.3, 0.1}, {20, 3, 1}));
-        // Two layers above each other: the far half turned over onto the near one.
+        // Two parallel layers: the far half is turned over onto the near one.
         body.bend([&](const Vec3& X) { return X.x <= 1 ? X : Vec3{2 - X.x + 0.03, X.y, 0.2 + distance - X.z}; });
         const PairContacts found(body, body);
         int between = 0;
@@ -78,7 +78,7 @@ TEST(SelfPair, LayersOfAFoldedStripAreInContact)
     EXPECT_TRUE(PairContacts(strip, strip).m_contacts.empty()) << "folded, but far apart";
 }
 
-// A slit narrower than an edge: close at rest, but not connected by a short way.
+// A slit narrower than an edge: its sides are close at rest, but far apart along the mesh.
 TEST(SelfPair, ClosingSidesOfANarrowSlitAreInContact)
 {
     // Without the cells around x = 0.55, from z = 0.2 upwards.

@@ -13,9 +13,9 @@ namespace
 
 constexpr double kReach = 0.1;       // [m]
 constexpr double kAnywhere = 1e30;   // [m]
-constexpr double kGradients = 2e-5;  // what the gradients of round hulls are off
+constexpr double kGradients = 2e-5;  // error of the gradients of round hulls
 
-/// A triangle among random ones, or an edge (its last corner the first), about a solid.
+/// A random triangle near a solid, or an edge (a triangle whose last corner equals the first).
 class SurfaceCullingTest : public ::testing::TestWithParam<NamedShape>
 {
 protected:

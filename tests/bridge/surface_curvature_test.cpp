@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Smallest and largest curvature times `radius` of the surface's vertices that `counts` says count.
+/// Minimum and maximum of curvature times `radius` over the vertices for which `counts` is true.
 template <class Counts>
 std::pair<double, double> roundnessOf(const TetMesh& mesh, double radius, const Counts& counts)
 {
@@ -29,8 +29,8 @@ std::pair<double, double> roundnessOf(const TetMesh& mesh, double radius, const 
     return range;
 }
 
-// A tyre rolls on its radius at its rims, too: by the mean normals there it would on less than half of it. A rim's
-// triangles lie on one side of its vertices, and lean their normals by some of an edge.
+// The rim of a tyre rolls on the radius of its tread, too: by the mean vertex normals there the radius would be less
+// than half. A rim's triangles lie on one side of its vertices, which tilts their normals by part of an edge.
 TEST(SurfaceCurvature, CylinderRimHasTheCurvatureOfItsMantle)
 {
     constexpr double kRadius = 0.4;  // [m]
@@ -50,7 +50,7 @@ TEST(SurfaceCurvature, BallHasTheCurvatureOfItsRadius)
     EXPECT_LT(range.second, 1.3);
 }
 
-// Where there is nothing but a crease it is an edge that a box rolls over.
+// A box rolls over its edges, which are creases without curved faces.
 TEST(SurfaceCurvature, BoxIsCurvedOnlyAtItsEdges)
 {
     const TetMesh box = makeBox({1, 1, 1}, {4, 4, 4});

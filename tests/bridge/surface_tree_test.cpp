@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-// A ball whose surface is dented, and whose nodes each move their own way, at any place.
+// A ball with a dented surface at any place, whose nodes have different velocities.
 struct MovingBall
 {
     MovingBall(Random& random, const Vec3& place)
@@ -92,7 +92,7 @@ class PlacedTrees : public testing::TestWithParam<Vec3>
 {
 };
 
-// Every other leaf has what is looked for, and all nodes above it.
+// Marks every other leaf, and all its ancestors.
 std::vector<unsigned char> everyOtherLeaf(const SurfaceTree& tree)
 {
     std::vector<unsigned char> has(tree.nodeCount());
@@ -140,7 +140,7 @@ TEST_P(PlacedTrees, FindAllMatchingLeavesThatABoxMayMeet)
 
 INSTANTIATE_TEST_SUITE_P(Places, PlacedTrees, testing::Values(Vec3{0, 0, 0}, Vec3{1000, -2000, 500}));
 
-// Boxes of some points, exact ones and coarse ones.
+// Boxes of some points in exact and in coarse precision.
 struct BothBoxes
 {
     BothBoxes(Random& random, const Vec3& place)
@@ -157,7 +157,7 @@ struct BothBoxes
     CoarseBox m_coarse = CoarseBox::empty();
 };
 
-// At twice the precision's rounding of the place the answers may differ, one way.
+// Within twice the coordinates' rounding the answers may differ, in one direction.
 TEST_P(PlacedTrees, CoarseBoxesRejectOnlyPairsExactOnesReject)
 {
     Random random;
@@ -165,7 +165,7 @@ TEST_P(PlacedTrees, CoarseBoxesRejectOnlyPairsExactOnesReject)
     for (int k = 0; k < 20000; ++k)
     {
         const BothBoxes a(random, GetParam()), b(random, GetParam());
-        // Reaches just beyond what the boxes are apart.
+        // Reaches just beyond the distance of the boxes.
         double apart = 0, apartAtStart = 0;
         for (int c = 0; c < 3; ++c)
         {
@@ -208,7 +208,7 @@ std::vector<SurfaceRidges::Ridge> ridgesOf(const SoftSurface& surface)
     return all;
 }
 
-// The twelve edges of a cube, and none of the diagonals that its flat faces have.
+// The list has the twelve edges of a cube, and none of its flat diagonals.
 TEST(SurfaceRidges, AreListedOnceEach)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
@@ -230,7 +230,7 @@ TEST(SurfaceRidges, AreListedOnceEach)
     EXPECT_EQ(edges.size(), 12u);
 }
 
-// A ball whose vertices are shaken, and a box beside it.
+// A ball with randomly displaced vertices, and a box beside it.
 TEST(SoftSurface, PreparedNearABoxSaysTheSameAsPreparedEverywhere)
 {
     const TetMesh mesh = makeSphere(1, 6);
@@ -274,7 +274,7 @@ TEST(SoftSurface, PreparedNearABoxSaysTheSameAsPreparedEverywhere)
     EXPECT_EQ(ridgesOf(part).size(), ridgesOf(whole).size());
 }
 
-// Wherever the search begins.
+// For any initial guess.
 TEST(SurfaceTree, FindsTheSameNearestTriangleForAnyGuess)
 {
     const TetMesh mesh = makeSphere(1, 5);
@@ -284,7 +284,7 @@ TEST(SurfaceTree, FindsTheSameNearestTriangleForAnyGuess)
     Random random;
     for (int k = 0; k < 200; ++k)
     {
-        // Every other one on a corner, where several triangles are as near.
+        // Every other query point is at a corner, where several triangles are equally near.
         const Vec3 p = k % 2 == 0 ? 2 * random.point() : mesh.restPositions()[triangles[k % triangles.size()][0]];
         TrianglePoint alone, guessed;
         const int found = tree.nearestTriangle(p, HUGE_VAL, none, alone);

@@ -30,7 +30,7 @@ SweptFeature triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& v
     return {3, {a, b, c}, {v, v, v}};
 }
 
-/// A shape at a place, on its way with a velocity and a spin about that place.
+/// A shape that moves from a place with a velocity and a spin about that place.
 SweptShape sweep(btCollisionShape& shape, const Vec3& from, const Vec3& velocity, const Vec3& spin = {})
 {
     ShapeLeaf leaf = leafOf(shape);
@@ -52,7 +52,7 @@ SweptContact touchOf(const SweptShape& shape, const SweptFeature& feature, doubl
     return contact;
 }
 
-/// The row's gap is what the relative velocity at the touch covers until then.
+/// The row's gap equals the distance covered by the relative velocity until contact.
 void expectRowStopsAtTouch(const SweptShape& shape, const SweptFeature& feature, const SweptContact& contact)
 {
     const Vec3 rigid = shape.m_motion.m_linearVelocity + cross(shape.m_motion.m_angularVelocity, contact.m_arm);
@@ -61,7 +61,7 @@ void expectRowStopsAtTouch(const SweptShape& shape, const SweptFeature& feature,
     EXPECT_NEAR(contact.m_surface.m_gap, contact.m_time * closing, 1e-9 * closing * kSweep);
 }
 
-/// Everything once about the origin and once far from it, where a float has 8 micrometres.
+/// Runs each case at the origin and far from it, where floats are 8 micrometres apart.
 class SweptDistance : public ::testing::TestWithParam<double>
 {
 protected:
@@ -140,7 +140,7 @@ TEST_P(SweptDistance, ANeedleMeetsTheMiddleOfATriangle)
     const SweptContact contact = touchOf(swept, feature);
     EXPECT_NEAR(contact.m_time, (x - 0.05) / 21, 1e-6 * (x - 0.05) / 21);
     EXPECT_NEAR(contact.m_surface.m_normal.x, 1, 1e-6);
-    for (double w : contact.m_surface.m_barycentric) EXPECT_NEAR(w, 1.0 / 3, 0.03);  // anywhere on the flat end
+    for (double w : contact.m_surface.m_barycentric) EXPECT_NEAR(w, 1.0 / 3, 0.03);  // any point of the flat end
     expectRowStopsAtTouch(swept, feature, contact);
 
     EXPECT_FALSE(touches(swept, node(feature.m_position[0])));
@@ -172,7 +172,8 @@ TEST_P(SweptDistance, TheTipOfATurningRodHits)
     btCapsuleShapeX rod(btScalar(0.005), btScalar(0.6));
     const double spin = 30, touchAngle = 0.4;  // [rad/s], [rad]
     const SweptShape swept = sweep(rod, m_origin, {}, {0, 0, spin});
-    // The side of the rod, 5 mm from its axis, meets the node: at 0.29 m its ray is ahead of the axis by asin(5 / 290).
+    // The side of the rod, of radius 5 mm, meets the node: at 0.29 m its line of contact leads the axis by asin(5 /
+    // 290).
     const double radius = 0.29, lead = std::asin(double(rod.getRadius()) / radius);
     const SweptFeature feature =
         node(m_origin + radius * Vec3{std::cos(touchAngle + lead), std::sin(touchAngle + lead), 0});
@@ -233,7 +234,7 @@ TEST(SweptShape, TurnsAboutItsCentre)
     ShapeLeaf leaf = leafOf(sphere);
     leaf.m_pose.m_origin = {3, 0, 0};
     const SweptShape swept(leaf, {{2, 0, 0}, {10, 0, 0}, {0, 0, 0.5 * M_PI / kSweep}}, kSweep);
-    const Pose end = swept.poseAt(kSweep);  // a quarter turn
+    const Pose end = swept.poseAt(kSweep);  // after a quarter turn
     EXPECT_NEAR(norm(end.m_origin - Vec3{2 + 10 * kSweep, 1, 0}), 0, 1e-14);
     EXPECT_NEAR(norm(end.m_rotation * Vec3{1, 0, 0} - Vec3{0, 1, 0}), 0, 1e-14);
     EXPECT_NEAR(swept.m_spinRadius, 1, 1e-14) << "the sphere itself turns unseen";
@@ -289,7 +290,7 @@ TEST(SweptShape, IsFastFromHalfAnEdgeOrThicknessAStep)
     EXPECT_TRUE(isFast(sweep(box, {}, {}, {0, 0, 1.01 * 0.05 / radius / kSweep}), 0, 0.1));
 }
 
-// Twice what gravity moves in a step: bodies at rest are not fast up to there.
+// Twice the displacement by gravity in a step: bodies at rest stay below that.
 TEST(SweptShape, FallsFarFromAQuarterOfAnEdgeOrThicknessAStep)
 {
     btBoxShape box(btVector3(btScalar(0.5), btScalar(0.25), btScalar(0.125)));
@@ -325,13 +326,13 @@ TEST(SweptShape, NonFiniteValuesMakeNoContact)
 namespace
 {
 
-/// Random shapes and features that fly through each other; the answer is compared with one found by sampling.
+/// Random shapes and features cross each other's paths; the oracle is dense sampling in time.
 class SweptSolid : public ::testing::TestWithParam<NamedShape>
 {
 protected:
     static constexpr int kSamples = 1000;
 
-    // Goes roughly towards a place.
+    // A feature that moves roughly towards a place.
     SweptFeature randomFeature(const Vec3& target)
     {
         SweptFeature feature;
@@ -358,7 +359,7 @@ protected:
         return d.m_gap;
     }
 
-    // Time of the first touch; negative if none was found.
+    // Time of first contact by sampling; negative if there is none.
     double sampled(const SweptShape& shape, const SweptFeature& feature)
     {
         double before = 0, touch = 0;

@@ -15,15 +15,15 @@ namespace
 
 constexpr int kTetras = 40;
 
-/// Two cells each way: 40 tetrahedra, five a part; as after its first step.
+/// A box of two cells along each axis after its first step: 40 tetrahedra, five a part.
 struct MarkedBox : TestBox
 {
     MarkedBox() : m_marks(*m_body) { m_body->m_bUpdateRtCst = false; }
 
-    // In the other order, which turns it.
+    // Swaps two nodes, which reverses the orientation.
     void rejoin(int tetra) { std::swap(m_body->m_tetras[tetra].m_n[1], m_body->m_tetras[tetra].m_n[2]); }
 
-    // Looks, until something is seen, or all have had their turn; the number of looks that saw nothing.
+    // Checks parts until a change is detected or all are checked; returns the number of checks that detected nothing.
     int looksInVain()
     {
         int looks = 0;
@@ -42,7 +42,7 @@ TEST(TopologyMarks, MatchTheBodyAsItWas)
     EXPECT_EQ(box.looksInVain(), TopologyMarks::kTurns);
 }
 
-// Whichever it is, whatever its turn.
+// For each tetrahedron, in any phase of the checks.
 TEST(TopologyMarks, DetectEveryRejoinedTetrahedron)
 {
     int before = 0;
@@ -56,7 +56,7 @@ TEST(TopologyMarks, DetectEveryRejoinedTetrahedron)
         EXPECT_LT(looks, TopologyMarks::kTurns) << tetra;
         before += looks > 0;
     }
-    EXPECT_GT(before, 0);  // parts do take turns
+    EXPECT_GT(before, 0);  // parts are checked in turns
 }
 
 TEST(TopologyMarks, DetectBulletsUpdateFlagAtOnce)
@@ -81,7 +81,7 @@ TEST(TopologyMarks, DetectReallocatedArraysAtOnce)
     }
 }
 
-// Node pointers go along with the array, as followNodes makes them.
+// Node pointers follow the reallocated array, as followNodes makes them.
 TEST(TopologyMarks, IgnoreTheAddressesOfArrays)
 {
     MarkedBox box;

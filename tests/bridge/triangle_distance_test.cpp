@@ -25,7 +25,7 @@ SurfaceDistance distanceTo(const ShapeLeaf& leaf, const Corners& triangle)
     return d;
 }
 
-/// What holds for every answer: unit normal, and barycentrics in [0, 1] of sum 1.
+/// Invariants of each result: a unit normal, and barycentrics in [0, 1] of sum 1.
 void expectWellFormed(const SurfaceDistance& d)
 {
     EXPECT_TRUE(std::isfinite(d.m_gap));
@@ -58,8 +58,8 @@ void expectAnswers(btCollisionShape& shape, const std::vector<KnownAnswer>& answ
 
 const double halfRoot = std::sqrt(0.5);
 
-/// The depth of the overlap of a box and a triangle: the least over the separating axes, which are the faces' normals
-/// and the products of the edges. It is also minus the distance if the two are separated along one of these axes.
+/// Penetration depth of a box and a triangle: the minimum over the separating axes (face normals and cross products of
+/// edges). It is minus the distance if the two are separated along one of these axes.
 double overlapDepth(const Vec3& halfExtents, const Corners& t)
 {
     std::vector<Vec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, cross(t[1] - t[0], t[2] - t[0])};
@@ -186,7 +186,8 @@ TEST(TriangleShapeDistance, DegenerateTrianglesAreAnswered)
     }
 }
 
-// Depth by the separating axis theorem, for hulls without margin: exact to rounding; 300 of the triangles are thin.
+// The oracle is the separating axis theorem, for hulls without margin: exact to rounding; 300 of the triangles are
+// thin.
 TEST(TriangleShapeDistance, DepthInAHullIsThatOfTheSeparatingAxes)
 {
     const Vec3 h = {0.5, 0.25, 0.75};
@@ -208,7 +209,7 @@ TEST(TriangleShapeDistance, DepthInAHullIsThatOfTheSeparatingAxes)
     EXPECT_GT(overlapping, 1000);
 }
 
-// Axis-aligned configurations are the hard ones for a polytope: everything lies in common planes.
+// Axis-aligned configurations are hard for EPA: many points are coplanar.
 TEST(TriangleShapeDistance, DepthIsRightForAlignedShapes)
 {
     const Vec3 h = {0.5, 0.25, 0.75};
@@ -233,7 +234,7 @@ TEST(TriangleShapeDistance, DepthIsRightForAlignedShapes)
 class TriangleToSolid : public testing::TestWithParam<NamedShape>
 {
 protected:
-    /// How much the rounded edges of boxes and cylinders may add to the gap; float rounding of other shapes.
+    /// Bound on the gap added by the rounded edges of boxes and cylinders; float rounding for other shapes.
     double edgeError() const
     {
         return GetParam().m_name == "box" ? 0.74 * ConvexCore::edgeRounding * 0.25
@@ -244,7 +245,7 @@ protected:
     RandomPoints m_random;
 };
 
-// The gap is that of the point named by the barycentrics, and no other point of the triangle is nearer.
+// The gap equals that of the point with the returned barycentrics, and no sampled point of the triangle is nearer.
 TEST_P(TriangleToSolid, NamesTheNearestPointOfTheTriangle)
 {
     int separated = 0;
@@ -271,8 +272,8 @@ TEST_P(TriangleToSolid, NamesTheNearestPointOfTheTriangle)
     EXPECT_GT(separated, 500);
 }
 
-// Moving the triangle along the normal opens the gap as much: outside to rounding, and for penetrations until they are
-// out.
+// Moving the triangle along the normal opens the gap by that distance: outside to rounding, inside until it is
+// separated.
 TEST_P(TriangleToSolid, IsResolvedByMovingAlongTheNormal)
 {
     for (int i = 0; i < 1000; ++i)

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-// No point of a fine grid on the triangle is nearer, and the point is where its weights say.
+// No point of a fine grid on the triangle is nearer, and the point agrees with its barycentrics.
 TEST(TriangleProximity, TheNearestPointIsNearerThanAllOthers)
 {
     Random random;

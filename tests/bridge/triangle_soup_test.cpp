@@ -52,7 +52,7 @@ TEST(TriangleSoup, APathMeetsTheFirstTriangle)
     EXPECT_NEAR(crossing.m_normal.z, 1, 1e-12);
     EXPECT_EQ(soup.firstCrossing({0.1, 0.2, 4}, {0.1, 0.2, 1.1}).m_triangle, -1);
     EXPECT_EQ(soup.firstCrossing({3.1, 0.2, 4}, {3.1, 0.2, -2}).m_triangle, -1);
-    // Along the edges and corners between triangles, too.
+    // Lines through edges and corners between triangles count, too.
     EXPECT_GE(soup.firstCrossing({0.4, 0.4, 4}, {0.4, 0.4, -2}).m_triangle, 0);
     EXPECT_GE(soup.firstCrossing({0.2, 0.2, -4}, {0.2, 0.2, 2}).m_triangle, 0);
 }

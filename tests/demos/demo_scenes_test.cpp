@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// The scenes of the gallery, demos/<name>/<name>.json, have the main figure of their programs.
+//
+// The gallery scenes demos/<name>/<name>.json reproduce the main figure of their C++ demos.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-/// What a program prints beside the name of a figure or check; not a number where it prints none.
+/// The value that a demo program prints beside a figure's or check's name; NaN if it prints none.
 double figureOf(const std::string& name, double seconds, const std::string& figure)
 {
     const ProgramRun run =
@@ -56,7 +57,7 @@ struct DemoScene
             if (m_scene.m_softBodies[i].m_name == name) return m_world.soft(i);
         throw std::runtime_error("no soft body " + name);
     }
-    /// Mean of the nodes' positions or velocities, by mass.
+    /// Mass-weighted mean of the nodes' positions or velocities.
     Vec3 mean(const std::string& name, btVector3 btSoftBody::Node::*vector) const
     {
         const btSoftBody& body = soft(name);
@@ -71,7 +72,7 @@ struct DemoScene
         return (1 / mass) * sum;
     }
     Vec3 centre(const std::string& name) const { return mean(name, &btSoftBody::Node::m_x); }
-    /// Of the box around its nodes.
+    /// Extent of the bounding box of the nodes.
     Vec3 size(const std::string& name) const
     {
         const btSoftBody& body = soft(name);
@@ -94,7 +95,7 @@ struct DemoScene
     SceneWorld m_world;
 };
 
-// 1e-3 of each is what four printed digits leave; the rest is said at each.
+// Tolerances are 1e-3, from four printed digits, unless a comment gives another reason.
 TEST(DemoScenes, BallsHaveTheSpeedOfTheDemo)
 {
     DemoScene scene("balls");
@@ -108,7 +109,7 @@ TEST(DemoScenes, BallsHaveTheSpeedOfTheDemo)
     }
 }
 
-// The crates settle where they fall, and a rounded position moves them a little.
+// The crates settle at places that depend on rounded initial positions.
 TEST(DemoScenes, BridgeHasTheSagOfTheDemo)
 {
     DemoScene scene("bridge");
@@ -146,7 +147,7 @@ TEST(DemoScenes, FingersFillAndLiftTheBallAsInTheDemo)
     EXPECT_NEAR((scene.centre("ball").y - low) / 0.1 / figureOf("finger", 3.5, "rise / way of the palm"), 1, 0.02);
 }
 
-// A motor that keeps the wheels' speed keeps the car's, but for what the tyres flatten.
+// Motors keep the wheels' speed, and so the car's, apart from the flattening of the tyres.
 TEST(DemoScenes, CarHasTheSpeedOfTheDemo)
 {
     DemoScene scene("car");
@@ -163,7 +164,7 @@ TEST(DemoScenes, CarHasTheSpeedOfTheDemo)
     EXPECT_NEAR(lowest / 0.4 / figureOf("car", 6, "lowest hub / radius of the tyre"), 1, 0.02);
 }
 
-// Rigid bodies on sliders in place of a multibody.
+// The scene has rigid bodies on sliders in place of a multibody.
 TEST(DemoScenes, GripperLiftsAndPressesAsInTheDemo)
 {
     DemoScene scene("gripper");
@@ -186,11 +187,11 @@ TEST(DemoScenes, RingIsDrawnAsFarAsInTheDemo)
     EXPECT_NEAR(scene.centre("ring").x / figureOf("squeeze", 3, "centre behind the rollers"), 1, 0.03);
 }
 
-// Its cells are not as long, and where it touches the ground first depends on how it swung before.
+// Its cells differ in length, and its first contact with the ground depends on the preceding swing.
 TEST(DemoScenes, RollIsThrownAsInTheDemo)
 {
     DemoScene scene("throw");
-    scene.until(3 + scene.m_scene.m_step);  // it holds in the step that begins at 3 s
+    scene.until(3 + scene.m_scene.m_step);  // still held in the step that begins at 3 s
     const Vec3 from = scene.centre("roll"), velocity = scene.mean("roll", &btSoftBody::Node::m_v);
     EXPECT_NEAR(norm(velocity) / figureOf("throw", 5, "speed when it is let go"), 1, 0.01);
     Vec3 to = from;
@@ -202,7 +203,7 @@ TEST(DemoScenes, RollIsThrownAsInTheDemo)
     EXPECT_NEAR((to.x - from.x) / figureOf("throw", 5, "way of its flight"), 1, 0.05);
 }
 
-// Its hands pull at once, where the program's let it come to rest before.
+// The scene's hands pull at once; in the program the loaf comes to rest before.
 TEST(DemoScenes, LoafTearsAtThePullOfTheDemo)
 {
     DemoScene scene("tearing");
@@ -229,7 +230,7 @@ TEST(DemoScenes, LoafTearsAtThePullOfTheDemo)
     EXPECT_GT(torn, 3) << "welds";
 }
 
-// Its specimens have no wide ends, so that the whole one parts above its middle, where more weight hangs.
+// The scene's specimens have no wide ends: the whole specimen breaks above its middle, where it carries more weight.
 TEST(DemoScenes, SpecimensPartAtThePullOfTheDemo)
 {
     DemoScene scene("tensile");
@@ -250,7 +251,7 @@ TEST(DemoScenes, SpecimensPartAtThePullOfTheDemo)
     EXPECT_NEAR(pull / bears / figureOf("tensile", 2.2, "whole: pull / strength x area"), 1, 0.05);
 }
 
-// Which toy lies where hangs on how each is turned.
+// The final place of each toy depends on its initial rotation.
 TEST(DemoScenes, TheCrowdFillsThePit)
 {
     DemoScene scene("crowd");

@@ -19,7 +19,7 @@ bool startsWith(const std::string& line, const std::string& start)
     return line.compare(0, start.size(), start) == 0;
 }
 
-/// The anchor that GitHub gives a heading: small letters, digits, - and _, with - in place of blanks.
+/// The anchor that GitHub gives a heading: lower-case letters, digits, - and _, with - in place of spaces.
 std::string anchorOf(const std::string& heading)
 {
     std::string anchor;
@@ -31,7 +31,7 @@ std::string anchorOf(const std::string& heading)
     return anchor;
 }
 
-/// The path in a line <!-- file: path -->; empty in others.
+/// The path in a line <!-- file: path -->; empty for other lines.
 std::string fileOf(const std::string& line)
 {
     static const std::regex mark(R"(<!-- file: (\S+) -->)");

@@ -8,24 +8,24 @@
 namespace bullet_fem
 {
 
-/// A block of code in a document, between lines of three backquotes.
+/// A code block of a document, between lines of three backquotes.
 struct Snippet
 {
-    std::string m_language;           ///< behind the backquotes: cpp, cmake, sh, ...
-    std::size_t m_line = 0;           ///< of its first line of code, from 1
+    std::string m_language;           ///< after the backquotes: cpp, cmake, sh, ...
+    std::size_t m_line = 0;           ///< number of its first line of code, from 1
     std::vector<std::string> m_code;  ///< line by line
-    bool m_isFragment = false;        ///< a line <!-- snippet: fragment --> stands above it: it does not compile alone
-    std::string m_file;               ///< path of the line <!-- file: path --> above it: it is that file, whole
+    bool m_isFragment = false;  ///< marked <!-- snippet: fragment --> in the line above: it does not compile by itself
+    std::string m_file;         ///< path in a line <!-- file: path --> above: the snippet is that whole file
 };
 
-/// A document in Markdown, as far as tests need it.
+/// The parts of a Markdown document that tests read.
 struct Document
 {
     std::string m_path;
     std::size_t m_bytes = 0;
     std::size_t m_lines = 0;
     std::vector<Snippet> m_snippets;
-    std::vector<std::string> m_links;  ///< what stands in the parentheses of [text](...), outside of snippets
+    std::vector<std::string> m_links;  ///< targets of [text](...), outside of snippets
     std::vector<std::string>
         m_anchors;  ///< of the headings, as GitHub makes them: `## Build and test` is build-and-test
 };

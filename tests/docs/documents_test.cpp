@@ -28,7 +28,7 @@ std::vector<fs::path> documentsOfProject()
     return paths;
 }
 
-/// A file with this text, gone at the end of the test.
+/// A temporary file with the given text.
 class WrittenDocument
 {
 public:
@@ -70,7 +70,7 @@ TEST(Documents, AreRejectedIfMalformed)
     EXPECT_THROW(WrittenDocument("```cpp\nint x;\n").read(), std::runtime_error);
 }
 
-/// Every link within the project leads to a file that is there, and to a heading of it.
+/// Each link within the project names an existing file, and an existing heading of it.
 TEST(Documents, LinkToExistingTargets)
 {
     std::size_t followed = 0;
@@ -89,7 +89,7 @@ TEST(Documents, LinkToExistingTargets)
     EXPECT_GT(followed, 30u);
 }
 
-/// Paths of the source tree in what a reader is told to type lead to what is there.
+/// Paths of the source tree in documented commands exist.
 TEST(Documents, CommandsNameExistingFiles)
 {
     std::size_t found = 0;
@@ -105,7 +105,7 @@ TEST(Documents, CommandsNameExistingFiles)
                     const fs::path first = *fs::path(word).begin();
                     if (first == word || !fs::is_directory(kRoot / first) || first == "." || first == "build" ||
                         first == "out")
-                        continue;  // or is made by running it
+                        continue;  // or it is created by running the command
                     ++found;
                     EXPECT_TRUE(fs::exists(kRoot / word)) << path << ", from line " << snippet.m_line << ": " << word;
                 }
@@ -134,7 +134,7 @@ TEST(Readme, IsReadInFiveMinutes)
     EXPECT_LE(readme.m_bytes, 10500u);
 }
 
-/// README's first program is the one that demos/run.sh builds, but for its header, and so is its CMakeLists.txt.
+/// README's first program equals that built by demos/run.sh, apart from its header, and so does its CMakeLists.txt.
 TEST(Readme, ShowsTheHelloProgram)
 {
     const Document readme = readDocument((kRoot / "README.md").string());

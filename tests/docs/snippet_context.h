@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-// What the documents' snippets of C++ take for granted; they are compiled, and never run.
+// Declarations that the documents' C++ snippets rely on; they are compiled, never run.
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
 #include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
@@ -29,4 +29,4 @@ extern btSoftBodyRigidBodyCollisionConfiguration config;
 extern btSoftRigidDynamicsWorld world;
 extern btFemSoftBodySolver fem;
 extern btSoftBody* body;
-extern const char *ele, *node;  // the texts of TetGen's files
+extern const char *ele, *node;  // contents of TetGen's files

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// write_snippets <document.md> <out.cpp>: the document's snippets of C++, fragments and whole files apart, as a source
-// file that compiles if they do: each is the body of a function that sees what snippet_context.h declares, and its
-// includes stand above all. write_snippets <document.md> <folder>/CMakeLists.txt: its first snippet of CMake, as a
-// project with a main.cpp. write_snippets <document.md> <folder>: its snippets that are whole files, each at its path.
+// write_snippets <document.md> <out.cpp>: writes the document's C++ snippets, except fragments and whole files, as one
+// source file: each snippet is the body of a function that sees the declarations of snippet_context.h; includes are
+// moved to the top.
+// write_snippets <document.md> <folder>/CMakeLists.txt: writes its first CMake snippet, as a project with a main.cpp.
+// write_snippets <document.md> <folder>: writes its whole-file snippets at their paths.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// pybullet's deformable_ball and deformable_torus, and DeformableClothAnchor with a slab in place of its cloth.
+//
+// Bullet's pybullet examples deformable_ball and deformable_torus, and DeformableClothAnchor with a slab in place of
+// its cloth.
 #include <utility>
 
 #include "examples/deformable_example.h"
@@ -36,7 +38,7 @@ protected:
         return ball;
     }
 
-    btRigidBody* m_ground;  // its top is at -2
+    btRigidBody* m_ground;  // its top is at y = -2
 };
 
 TEST_F(DeformableBalls, BallBouncesWithLittleLoss)
@@ -51,7 +53,7 @@ TEST_F(DeformableBalls, BallBouncesWithLittleLoss)
     book.addSoft(ball, 1040, 0.3, btFemElasticLaw::neoHooke);
     book.addRigid(box);
     book.open();
-    // It falls half a metre, until t = sqrt(2 s / g).
+    // Free fall over half a metre, until t = sqrt(2 s / g).
     const double top = centerOf(ball).y, fall = top - radius + 2;
     const int landing = static_cast<int>(std::sqrt(2 * fall / 10) / step);
     run(book, landing - 2, step);
@@ -67,7 +69,7 @@ TEST_F(DeformableBalls, BallBouncesWithLittleLoss)
     }
     EXPECT_NEAR(motionOf(ball).m_linear.y, momentum, 1e-4 * mass * 3);
     EXPECT_LT(highest, top);
-    EXPECT_GT(highest - radius + 2, 0.5 * fall);  // it rings on the way up, too
+    EXPECT_GT(highest - radius + 2, 0.5 * fall);  // it vibrates while it rises
     EXPECT_LT(deepest, 0.01 * radius);
     EXPECT_GT(m_flattest, 0.4);
     EXPECT_LT(book.made(), 1e-3 * mass * 10 * fall);
@@ -99,7 +101,7 @@ TEST_F(DeformableBalls, ToriFallOnEachOtherAndLieDown)
     for (const btSoftBody* torus : tori)
     {
         EXPECT_NEAR(lowest(*torus), -2, 2e-3);
-        EXPECT_NEAR(centerOf(*torus).y, -2 + 0.25, 0.04);  // flat on the ground, and squeezed a little
+        EXPECT_NEAR(centerOf(*torus).y, -2 + 0.25, 0.04);  // flat on the ground, and slightly compressed
         EXPECT_LT(fastestNode(*torus), 0.5);
         EXPECT_GT(smallestVolumeRatio(*torus), 0.7);
     }
@@ -107,7 +109,7 @@ TEST_F(DeformableBalls, ToriFallOnEachOtherAndLieDown)
     EXPECT_GT(m_flattest, 0.1);
 }
 
-// A box of 1 kg hangs and swings on two edges of a slab that is pinned at two others.
+// A box of 1 kg hangs and swings from two edges of a slab that is pinned at two other edges.
 TEST_F(DeformableExample, AnchoredCornersCarryABox)
 {
     setGravity(10);
@@ -147,10 +149,10 @@ TEST_F(DeformableExample, AnchoredCornersCarryABox)
             error = std::max(error, double(anchors[a].m_error));
         }
     }
-    EXPECT_LT(error, 2e-3);  // of a swing of ten metres; without them it would fall 31 m
+    EXPECT_LT(error, 2e-3);  // of a swing of ten metres; without the anchors it would fall 31 m
     EXPECT_GT(centerOf(slab).y, -2);
     EXPECT_LT(norm(motionOf(box).m_linear - momentum), 1e-3 * 10);
-    EXPECT_GT(box.getCenterOfMassPosition().z(), 5);  // swung through to the other side
+    EXPECT_GT(box.getCenterOfMassPosition().z(), 5);  // it swung through to the other side
     EXPECT_LT(book.made(), 1e-3 * 10 * 6);
     EXPECT_GT(m_flattest, 0.3);
     EXPECT_NEAR(box.getCenterOfMassPosition().x(), 0, 0.05);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bullet's deformable examples of one soft cube: VolumetricDeformable, LargeDeformation, Collide, and their picking.
+//
+// Bullet's deformable examples of one soft cube: VolumetricDeformable, LargeDeformation, Collide, and picking in them.
 #include <random>
 
 #include "bullet_fem/btFemRay.h"
@@ -41,7 +42,7 @@ protected:
         m_ground = &addRigidBox({150, 50, 150}, {0, -50, 0}, 0, 1);
     }
 
-    // With walls around and boxes that fall onto it.
+    // Runs the scene with walls around the cube and boxes that fall onto it.
     void runWithBoxes(double young, const TetMesh& mesh)
     {
         addCubeAndWalls(mesh);
@@ -73,7 +74,7 @@ protected:
         addGravity(*m_cube);
     }
 
-    // Everything that touches the cube, on average of some steps, carries its weight; once the last box has fallen off.
+    // Once the last box has fallen off, the mean contact force on the cube over some steps equals its weight.
     void expectBalance()
     {
         m_world.step(300, btScalar(kShort));
@@ -98,12 +99,11 @@ TEST_F(VolumetricDeformable, BoxesFallOnTheStiffestCubeOfTheSlider)
     expectBalance();
 }
 
-// A box weighs as much as E times its face: the linear law lets elements be pressed flat, and through themselves.
+// A box weighs E times its face area: under the linear law elements are pressed flat and invert.
 TEST_F(VolumetricDeformable, BoxesCrushTheCubeOfTheExample)
 {
     runWithBoxes(50, makeBox({2, 2, 2}, {4, 4, 4}, {-1, -1, -1}));
-    // A node or two may stay where two boxes press them: at some of the starts some 10 um apart, and so with other
-    // bits.
+    // At some initial positions one or two nodes stay about 10 um apart, pressed by two boxes; their bits differ.
     int deep = 0;
     for (int i = 0; i < m_cube->m_nodes.size(); ++i)
     {
@@ -114,7 +114,7 @@ TEST_F(VolumetricDeformable, BoxesCrushTheCubeOfTheExample)
     expectBalance();
 }
 
-// The same cube with a Neo-Hookean force: the law holds the boxes, which the linear one does not.
+// The cube with a Neo-Hookean force: this law carries the boxes, unlike the linear one.
 TEST_F(VolumetricDeformable, BoxesCrushANeoHookeanCubeWithoutInvertedElementsAtRest)
 {
     addCubeAndWalls(makeBox({2, 2, 2}, {4, 4, 4}, {-1, -1, -1}));
@@ -135,7 +135,7 @@ TEST_F(VolumetricDeformable, BoxesCrushANeoHookeanCubeWithoutInvertedElementsAtR
     m_world.step(1200, btScalar(kShort));
     EXPECT_GT(smallestVolumeRatio(*m_cube), 0.5);
     const double own = kMass * 100 * kEdge / (2 * 50 * kEdge * kEdge);
-    EXPECT_NEAR(kEdge - highest(*m_cube), own, 0.2 * own);  // friction on the floor holds its foot
+    EXPECT_NEAR(kEdge - highest(*m_cube), own, 0.2 * own);  // friction on the floor holds its lower face
 }
 
 TEST_F(VolumetricDeformable, ACubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
@@ -146,7 +146,7 @@ TEST_F(VolumetricDeformable, ACubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
     m_world.step(480, btScalar(kShort));
     const double alone = highest(*m_cube);
     const double own = kMass * 100 * kEdge / (2 * 50 * kEdge * kEdge);
-    EXPECT_NEAR(kEdge - alone, own, 0.15 * own);  // the bottom sticks
+    EXPECT_NEAR(kEdge - alone, own, 0.15 * own);  // the lower face sticks
     EXPECT_NEAR(supportOn(*m_cube, *m_ground), 100 * kMass, 1e-3 * 100 * kMass);
     btRigidBody& plate = addRigidBox({2, btScalar(0.25), 2}, {0, btScalar(alone + 0.26), 0}, btScalar(0.5), 0);
     m_world.step(600, btScalar(kShort));
@@ -156,7 +156,7 @@ TEST_F(VolumetricDeformable, ACubeAloneAndUnderAPlateIsSqueezedAsItsModulusSays)
     EXPECT_GT(smallestVolumeRatio(*m_cube), 0.3);
 }
 
-// As the examples pick: the face that a ray hits, drawn to the mouse by the example's spring of 100 N/m a node.
+// Picking as in the examples: the face hit by a ray is pulled to the mouse by the example's spring of 100 N/m a node.
 TEST_F(VolumetricDeformable, APickedFaceFollowsTheMouse)
 {
     m_cube = &addBlock(makeBox({2, 2, 2}, {5, 5, 5}, {-1, -1, -1}), cubeAt(2, 2));
@@ -181,7 +181,7 @@ TEST_F(VolumetricDeformable, APickedFaceFollowsTheMouse)
     EnergyBook book(fem(), m_gravity);
     book.addSoft(*m_cube, 50, 0.3);
     book.open();
-    const double start = springEnergy();  // Bullet's springs draw all three nodes to one point
+    const double start = springEnergy();  // Bullet's springs pull all three nodes to one point
     double sag = 0, made = 0, least = 0;
     for (int k = 0; k < 900; ++k)
     {
@@ -200,7 +200,7 @@ TEST_F(VolumetricDeformable, APickedFaceFollowsTheMouse)
     EXPECT_GT(m_flattest, 0.1);
 }
 
-// All nodes begin anywhere in a box of half the size.
+// All nodes start at random in a box of half the size.
 TEST_F(DeformableExample, LargeDeformationRegainsItsShapeFromRandomPositions)
 {
     useImplicitSolver();
@@ -226,7 +226,7 @@ TEST_F(DeformableExample, LargeDeformationRegainsItsShapeFromRandomPositions)
     EXPECT_LT(norm(motionOf(cube).m_linear), 1e-5);
 }
 
-// Head on at 30 m/s, without gravity and friction.
+// A head-on impact at 30 m/s, without gravity and friction.
 TEST_F(DeformableExample, CollideKeepsMomentumAndMakesNoEnergy)
 {
     setGravity(0);
@@ -245,7 +245,7 @@ TEST_F(DeformableExample, CollideKeepsMomentumAndMakesNoEnergy)
     for (int k = 0; k < 600; ++k)
     {
         run(book, 1, kLong);
-        // Mass damping takes its share of what was there and what came; nothing else comes or goes.
+        // Mass damping takes its share of the old momentum and of the impulses; nothing else changes momentum.
         const Vec3 impulse = impulseOn(fem(), cube);
         momentum = (1 / (1 + 0.1 * kLong)) * (momentum + impulse);
         given += impulse;

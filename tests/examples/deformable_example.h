@@ -26,7 +26,7 @@ struct ExampleBlock
     int m_collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
 };
 
-/// What Bullet's deformable examples have in common; y is up.
+/// Common setup of Bullet's deformable examples; y is up.
 class DeformableExample : public DeformableWorldTest
 {
 protected:
@@ -57,7 +57,7 @@ protected:
         return m_world.addRigid(new btBoxShape(half), settings);
     }
 
-    // Added first and placed after, as the examples do.
+    // Adds the block first and places it afterwards, as the examples do.
     btSoftBody& addBlock(const TetMesh& mesh, const ExampleBlock& block)
     {
         btSoftBody& body = m_world.addSoft(createFromTetGenText(m_world.info(), mesh));
@@ -80,7 +80,7 @@ protected:
         addForce(m_world, body, std::make_unique<btDeformableGravityForce>(bulletVector(m_gravity)));
     }
 
-    // As three of the examples set it before every step; their E is 50 Pa, up to 2000 by a slider.
+    // Parameters that three of the examples set before each step; their E is 50 Pa, up to 2000 by a slider.
     void addElasticity(btSoftBody& body, double young)
     {
         auto force = std::make_unique<btDeformableLinearElasticityForce>(100, 100, btScalar(0.01));
@@ -96,7 +96,7 @@ protected:
         return fem().contactForce(&body, &other).y();
     }
 
-    // Steps of `step` [s]; after each, everything is finite.
+    // Makes steps of `step` [s]; checks after each that all numbers are finite.
     void run(EnergyBook& book, int steps, double step, const std::function<void(int)>& before = {})
     {
         for (int k = 0; k < steps; ++k)
@@ -113,7 +113,7 @@ protected:
         }
     }
 
-    // Coulomb's law, point by point.
+    // Coulomb's law at each contact point.
     void expectWithinTheCone(const btSoftBody& body, double friction)
     {
         const btAlignedObjectArray<btFemContact>& contacts = fem().contacts(&body);
@@ -123,7 +123,7 @@ protected:
 
     Vec3 m_gravity;
     std::vector<btSoftBody*> m_blocks;
-    double m_flattest = 1;  // smallest volume of an element that run() saw, as a share of that at rest [-]
+    double m_flattest = 1;  // minimum over run()'s steps of an element's volume over its rest volume [-]
 };
 
 }  // namespace bullet_fem

@@ -16,37 +16,37 @@ class btSoftBody;
 namespace bullet_fem
 {
 
-/// The energy of a scene: kinetic, elastic and that of gravity. It may grow by what is worked from outside alone.
+/// The energy of a scene: kinetic, elastic and potential. It may grow only by the work of external forces.
 class EnergyBook
 {
 public:
-    /// gravity [m/s2] is that of all bodies.
+    /// gravity [m/s2] acts on all bodies.
     EnergyBook(const btFemSoftBodySolver& fem, const Vec3& gravity);
 
-    /// With E [Pa] and nu [-].
+    /// Adds a soft body with E [Pa] and nu [-].
     void addSoft(const btSoftBody& body, double young, double poisson, btFemElasticLaw law = btFemElasticLaw::hooke);
     void addRigid(const btRigidBody& body);
-    /// What is led by the user or a motor: it works by the impulses that it gives to soft bodies along its way.
+    /// Adds an object moved by the user or a motor: its work is that of its impulses on soft bodies along its motion.
     void addLed(const btCollisionObject& object);
 
     double kinetic() const;    ///< [J]
     double potential() const;  ///< of gravity [J]
     double elastic() const;    ///< [J]
 
-    /// Once all are known, before the first step.
+    /// Call after all bodies are added, before the first step.
     void open();
-    /// After every step of `step` [s].
+    /// Call after each step of `step` [s].
     void noteStep(double step);
-    /// Work from outside that is known otherwise [J].
+    /// Adds external work computed by the caller [J].
     void addWork(double work) { m_work += work; }
 
-    /// After steps, to see what energy came from nowhere.
+    /// Compares the energy with the work; call after steps.
     void audit();
 
     double work() const { return m_work; }  ///< since open() [J]
-    /// Energy now minus that in the beginning and the work since; at most zero where none is made up [J].
+    /// Present energy minus initial energy and external work [J]; at most zero unless energy is created numerically.
     double surplus() const;
-    /// Largest growth of surplus() from one audit to a later one [J]; nothing makes it grow but errors.
+    /// Largest growth of surplus() from one audit to a later one [J]; only numerical errors make it grow.
     double made() const { return m_made; }
 
 private:

@@ -18,7 +18,7 @@ namespace
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
 
-// Of an element, and its volume at rest.
+// Deformation gradient of an element, and its rest volume.
 struct Deformation
 {
     Mat3 m_F;
@@ -49,7 +49,7 @@ TetMesh exampleCube()
     return makeBox({2, 2, 2}, {7, 7, 7}, {-1, -1, -1});
 }
 
-// A rod, bent to a ring whose ends are joined.
+// A rod bent to a closed ring.
 TetMesh exampleTorus()
 {
     const int cells = 4, layers = 20;
@@ -124,7 +124,7 @@ double smallestVolumeRatio(const btSoftBody& body)
 namespace
 {
 
-// [J/m3]
+// Energy density of the corotational linear law [J/m3].
 double corotatedDensity(const Mat3& F, double lambda, double mu)
 {
     const Mat3 S = transposeTimes(polarRotation(F, Mat3::identity()), F);
@@ -132,7 +132,7 @@ double corotatedDensity(const Mat3& F, double lambda, double mu)
     return mu * squaredNorm(strain) + 0.5 * lambda * trace(strain) * trace(strain);
 }
 
-// Ciarlet's, where J is above 0.1 [J/m3]
+// Energy density of Ciarlet's Neo-Hookean law, for J above 0.1 [J/m3].
 double neoHookeDensity(const Mat3& F, double lambda, double mu)
 {
     const double J = determinant(F);

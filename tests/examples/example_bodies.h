@@ -21,13 +21,13 @@ TetMesh exampleTorus();
 /// Like the bunny of Bullet's soft demo: a lumpy body with two ears in a box of 5.8 x 8.7 x 11.8 m around the origin.
 SurfaceMesh lumpySurface();
 
-/// What Bullet's examples do: CreateFromTetGenData, with links along all edges.
+/// Makes a body as Bullet's examples do: CreateFromTetGenData, with links along all edges.
 btSoftBody* createFromTetGenText(btSoftBodyWorldInfo& info, const TetMesh& mesh);
 
-/// Smallest volume of an element as a share of what it is at rest [-]; negative where one is inside out.
+/// Minimum of element volume over rest volume [-]; negative for an inverted element.
 double smallestVolumeRatio(const btSoftBody& body);
 
-/// Of the isotropic corotated linear material, sum of V (mu |S - I|^2 + lambda / 2 tr(S - I)^2) with F = R S [J].
+/// Elastic energy of the isotropic corotational law, sum of V (mu |S - I|^2 + lambda / 2 tr(S - I)^2) with F = R S [J].
 double elasticEnergy(const btSoftBody& body, double young, double poisson, btFemElasticLaw law);
 
 }  // namespace bullet_fem

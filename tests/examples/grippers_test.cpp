@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bullet's deformable examples of things that hold soft blocks: Pinch, PinchFriction, GraspDeformable.
+//
+// Bullet's deformable examples in which soft blocks are gripped: Pinch, PinchFriction, GraspDeformable.
 #include <array>
 
 #include "BulletDynamics/Featherstone/btMultiBodyJointMotor.h"
@@ -13,14 +14,14 @@ namespace
 
 constexpr double kStepOfExamples = 1.0 / 240;  // [s]
 
-// Two plates of 1000 t, which the world's solver callback leads in and up and aside.
+// Motion of two plates of 1000 t, prescribed by the world's solver callback: inwards, upwards and sideways.
 struct Leading
 {
-    btScalar m_pressed, m_lifted, m_shifted;  // until when [s]
+    btScalar m_pressed, m_lifted, m_shifted;  // end times of the phases [s]
     btScalar m_upward, m_aside;               // [m/s], after pressing by 2 m/s
     btScalar m_friction;
 };
-Leading leading;  // Bullet's callback knows nothing else
+Leading leading;  // a global, because Bullet's callback has no user pointer
 
 void lead(btScalar time, btDeformableMultiBodyDynamicsWorld* world)
 {
@@ -81,7 +82,7 @@ protected:
     std::array<btRigidBody*, 2> m_plates = {};
 };
 
-// Pressed, torn up by 5 m/s at once, aside by 5 m/s at once, and held.
+// The plates press, then jump to 5 m/s upwards and to 5 m/s sideways, and hold.
 TEST_F(Plates, PinchHoldsACubeThroughLiftAndShift)
 {
     start({btScalar(0.9), btScalar(2.5), btScalar(3.5), 5, 5, 20});
@@ -103,7 +104,7 @@ TEST_F(Plates, PinchHoldsACubeThroughLiftAndShift)
     EXPECT_NEAR(velocityOf(cube).y, 5, 2);  // it swings
     expectWithinTheCone(cube, 10);
     run(book, 480, kStepOfExamples);
-    EXPECT_NEAR(centerOf(cube).z, 5, 0.05);  // taken aside
+    EXPECT_NEAR(centerOf(cube).z, 5, 0.05);  // moved sideways
     EXPECT_NEAR(heightInGrip(cube), grip, 0.25);
     EXPECT_LT(fastestNode(cube), 0.2);
     EXPECT_GT(smallestVolumeRatio(cube), 0.5);
@@ -111,15 +112,15 @@ TEST_F(Plates, PinchHoldsACubeThroughLiftAndShift)
     EXPECT_LT(book.made(), 1e-2 * book.work());
     const Vec3 near = vec3(fem().contactForce(&cube, m_plates[0])), far = vec3(fem().contactForce(&cube, m_plates[1]));
     EXPECT_NEAR(near.y + far.y, 10, 1);  // its weight
-    // Pressed by 0.3 m a side: more than free sides would give it, less than no sides at all.
+    // Pressed by 0.3 m a side: the force is above that with free sides and below that with fully confined sides.
     const double strain = 0.6 / 4, wide = 16, confined = 0.7 / (1.3 * 0.4);
     EXPECT_GT(far.z, 25 * strain * wide * 0.9);
     EXPECT_LT(far.z, 25 * strain * wide * confined);
     EXPECT_NEAR(near.z, -far.z, 0.02 * far.z);
 }
 
-// Three blocks side by side, the one in the middle held by friction between soft bodies. Friction of the plates is 400,
-// which is as good as 10.
+// Three blocks side by side, the middle one held by friction between soft bodies. Friction of the plates is 400, which
+// behaves as 10 does.
 TEST_F(Plates, PinchFrictionLiftsThreeBlocks)
 {
     start({btScalar(0.45), 5, 5, 2, 0, 200});
@@ -140,7 +141,7 @@ TEST_F(Plates, PinchFrictionLiftsThreeBlocks)
 
     for (const btSoftBody* block : blocks)
     {
-        EXPECT_GT(centerOf(*block).y, 5.4);  // of 2.1 + 2 * 2.05 = 6.2; they hang down
+        EXPECT_GT(centerOf(*block).y, 5.4);  // of 2.1 + 2 * 2.05 = 6.2; they sag
         EXPECT_NEAR(centerOf(*block).x, 0, 0.05);
         EXPECT_GT(smallestVolumeRatio(*block), 0.4);
         expectWithinTheCone(*block, 10);
@@ -149,7 +150,7 @@ TEST_F(Plates, PinchFrictionLiftsThreeBlocks)
     EXPECT_NEAR(centerOf(*blocks[0]).z, -centerOf(*blocks[1]).z, 0.02);
     EXPECT_LT(book.made(), 1e-3 * book.work());
     EXPECT_GT(m_flattest, 0.2);
-    // What was worked from outside and fell through friction and damping: the blocks have risen by it.
+    // External work minus friction and damping losses: the blocks have gained height by it.
     EXPECT_GT(book.work(), 3 * 0.6 * 10 * (5.4 - 2.1));
     double lift = 0, momentum = 0;
     for (const btSoftBody* block : blocks) momentum -= motionOf(*block).m_linear.y;
@@ -162,7 +163,7 @@ TEST_F(Plates, PinchFrictionLiftsThreeBlocks)
     EXPECT_NEAR(lift, momentum + 3 * 0.6 * 10 * 60 * kStepOfExamples, 1e-3 * lift);
 }
 
-// The gripper of two motored fingers on a base with a speed, 40 times as large, so that it can hold the example's cube.
+// A gripper of two motorised fingers on a base with prescribed velocity, 40 times as large, to hold the example's cube.
 class GraspDeformable : public DeformableExample
 {
 protected:
@@ -201,7 +202,7 @@ protected:
         btBoxShape(half).calculateLocalInertia(btScalar(0.1), sum);
         return sum;
     }
-    // The two sliders of the example.
+    // Sets the two sliders of the example.
     void lead(btScalar upward, btScalar closing)
     {
         m_body->setBaseVel(btVector3(0, upward, 0));
@@ -244,13 +245,13 @@ TEST_F(GraspDeformable, GraspHoldsAndLiftsTheCubeAndLetsItGo)
     EXPECT_GT(smallestVolumeRatio(cube), 0.3);
     EXPECT_NEAR(supportOn(cube, *m_fingers[0]) + supportOn(cube, *m_fingers[1]), weight, 0.02 * weight);
     EXPECT_EQ(supportOn(cube, table), 0);
-    // It holds because the fingers press with more than the share of the weight that friction needs.
+    // The cube is held because the fingers' normal force exceeds the weight over the friction coefficient.
     for (const btMultiBodyLinkCollider* finger : m_fingers)
         EXPECT_GT(2 * std::fabs(double(fem().contactForce(&cube, finger).z())), 0.5 * weight);
     expectWithinTheCone(cube, 2);
     EXPECT_LT(book.made(), 0.02 * book.work());
 
-    // At a smaller coefficient than what the weight needs it slides, slower than it would fall.
+    // With a coefficient below that needed for the weight it slides, slower than in free fall.
     const double needed = weight / (2 * std::fabs(double(fem().contactForce(&cube, m_fingers[0]).z())));
     const double held = centerOf(cube).y;
     for (btMultiBodyLinkCollider* finger : m_fingers) finger->setFriction(btScalar(0.5 * needed / 2));
@@ -258,9 +259,9 @@ TEST_F(GraspDeformable, GraspHoldsAndLiftsTheCubeAndLetsItGo)
     EXPECT_LT(centerOf(cube).y, held - 0.05);
     EXPECT_GT(centerOf(cube).y, held - 0.5 * 9.81 * 0.25 * 0.25);
     expectWithinTheCone(cube, 0.5 * needed);
-    // Opened, they let it fall on the table.
+    // The open fingers drop it on the table.
     run(book, 360, kStepOfExamples, [&](int k) { lead(0, k < 120 ? btScalar(-0.5) : 0); });
-    EXPECT_NEAR(supportOn(cube, table), weight, 0.3 * weight);  // it still quivers
+    EXPECT_NEAR(supportOn(cube, table), weight, 0.3 * weight);  // it still vibrates
     EXPECT_NEAR(centerOf(cube).y, 0.885, 0.03);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// The two tetrahedral scenes of Bullet's soft demo, on its waves, and its picking.
+//
+// The two tetrahedral scenes of Bullet's soft demo, on its wavy ground, and its picking.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace
 {
 
 constexpr int kWaves = 30;     // vertices along an edge
-constexpr int kMeasured = 60;  // steps that forces are averaged over
+constexpr int kMeasured = 60;  // steps for the mean of forces
 
 /// A world with the demo's gravity, its own world info, and waves of triangles of 8 m with a margin of 0.5 m.
 class SoftDemo : public ::testing::Test
@@ -75,7 +76,7 @@ protected:
         return cube;
     }
 
-    // 600 steps: energy and numbers after each, and in the end all the momentum that came.
+    // 600 steps: checks energy and finiteness after each, and the total momentum balance at the end.
     void run(const btSoftBody& body, EnergyBook& book)
     {
         book.open();
@@ -120,10 +121,10 @@ TEST_F(SoftDemo, TetraCubeFallsOnTheWavesAndComesToRest)
     EnergyBook book(m_fem, {0, -10, 0});
     book.addSoft(cube, 0.8e6, 0.3);
     run(cube, book);
-    EXPECT_LT(book.made(), 1e-4 * 3000 * 17);  // fallen from 17 m above the lowest that it may get
+    EXPECT_LT(book.made(), 1e-4 * 3000 * 17);  // the fall of 17 m to the lowest possible place
     ASSERT_TRUE(m_fem.isFem(&cube));
     EXPECT_EQ(m_fem.stepReport(&cube).m_flags, 0);
-    m_world.step(600);  // on the edge of a wave it turns by some millimetres a second until it has found its place
+    m_world.step(600);  // on the crest of a wave it rotates by some millimetres a second until it settles
     EXPECT_LT(fastestNode(cube), 1e-3);
     EXPECT_NEAR(averageSupport(cube), 3000, 1e-3 * 3000);
     EXPECT_GT(smallestVolumeRatio(cube), 0.98);
@@ -142,11 +143,11 @@ TEST_F(SoftDemo, TetraBunnyFallsOnTheWavesAndRocks)
     bunny.generateClusters(0);
     bunny.m_cfg.kDF = 10;
     EnergyBook book(m_fem, {0, -10, 0});
-    book.addSoft(bunny, 0, 0);  // elements on the boundary are softer than E says: what they store is left out
+    book.addSoft(bunny, 0, 0);  // elements on the boundary are softer than E, so elastic energy is left out
     run(bunny, book);
     ASSERT_TRUE(m_fem.isFem(&bunny));
     EXPECT_EQ(m_fem.stepReport(&bunny).m_flags, 0);
-    EXPECT_LT(norm(velocityOf(bunny)), 1.5);  // it came down at 12 m/s, and sticks where it touches
+    EXPECT_LT(norm(velocityOf(bunny)), 1.5);  // it landed at 12 m/s, and sticks in contact
     EXPECT_NEAR(averageSupport(bunny), 1500, 0.1 * 1500);
     EXPECT_GT(smallestVolumeRatio(bunny), 0.9);
     EXPECT_GT(m_flattest, 0.3);
@@ -156,10 +157,10 @@ TEST_F(SoftDemo, TetraBunnyFallsOnTheWavesAndRocks)
 struct Drag
 {
     btSoftBody::Node* m_node;
-    btVector3 m_goal, m_impulse{0, 0, 0};  // the latter that of the last step [N s]
+    btVector3 m_goal, m_impulse{0, 0, 0};  // m_impulse: that of the last step [N s]
 };
 
-// Before a step, the demo gives the picked node the velocity that would take it to the mouse.
+// Before each step the demo gives the picked node the velocity that would take it to the mouse.
 void drag(btDynamicsWorld* world, btScalar step)
 {
     auto& pulled = *static_cast<Drag*>(world->getWorldUserInfo());
@@ -183,7 +184,7 @@ TEST_F(SoftDemo, APickedNodeOfTheTetraCubeFollowsTheMouse)
     for (btSoftBody::Node* node : face.m_n)
         if ((node->m_x - impact).length2() < (picked.m_node->m_x - impact).length2()) picked.m_node = node;
     m_world.world().setInternalTickCallback(drag, &picked, true);
-    // It is a spring of m_node / step^2, without damping.
+    // The drag acts as an undamped spring of stiffness m_node / step^2.
     const double sag = 10 * 300 * double(picked.m_node->m_im) * double(kStep * kStep);
     EnergyBook book(m_fem, {0, -10, 0});
     book.addSoft(cube, 0.8e6, 0.3);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A tool: bakes a body to <argument>.bfem, and tells in <argument>.bits where one that is not baked falls.
+// A baking tool: bakes a body to <argument>.bfem, and writes to <argument>.bits the final coordinates of an unbaked
+// body that is dropped.
 #ifdef BULLETFEM_AMALGAM
 #include "bullet_fem_runtime.h"
 #else
@@ -19,7 +20,7 @@ int main(int argc, char** argv)
     const bullet_fem::TetMesh mesh = bullet_fem::makeBox({.6, .4, .4}, {6, 4, 4}, {.1, .3, -.2});
     bullet_fem::BakeSettings settings;
     settings.m_material = bullet_fem::Material::rubber();
-    settings.m_material.m_stiffnessDamping = .005;  // as a btFemMaterial has it
+    settings.m_material.m_stiffnessDamping = .005;  // as in a btFemMaterial
     settings.m_singlePrecision = sizeof(btScalar) == sizeof(float);
     bullet_fem::writeBakedBody(name + ".bfem", bullet_fem::bakeBody(mesh, settings));
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The five lines of the README, by someone who has only the installed headers and libraries.
+// The five lines of the README, compiled with installed headers and libraries only.
 #ifdef BULLETFEM_AMALGAM
 #include "bullet_fem_runtime.h"
 #else

@@ -18,12 +18,12 @@
 #include "BulletSoftBody/btSoftRigidDynamicsWorld.h"
 #include "btBulletDynamicsCommon.h"
 
-/// A world with a ground, in which one soft body is dropped.
+/// A world with a ground on which one soft body is dropped.
 struct DropWorld
 {
     ~DropWorld() { m_world.removeRigidBody(&m_ground); }
 
-    /// Steps the body for five seconds, and returns what its coordinates are then, to the bit: FNV-1a of them.
+    /// Steps the body for five seconds, and returns the FNV-1a hash of its coordinates' bits.
     std::uint64_t bitsAfterDrop(btSoftBody* body)
     {
         m_world.addRigidBody(&m_ground);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A game: what the tool has baked falls as the tool says, to the bit.
+// A game: the baked body falls bitwise as in the baking tool.
 #ifdef BULLETFEM_AMALGAM
 #include "bullet_fem_runtime.h"
 #else

@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// A file that is put together from text and binary numbers.
+/// Builds a file from text and binary numbers.
 class ByteText
 {
 public:
@@ -27,7 +27,7 @@ public:
         return *this;
     }
 
-    /// A binary number in the file's byte order, which is not this machine's if that is not little-endian.
+    /// Appends a binary number in the file's byte order, reversed on a machine of the other order.
     template <class Number>
     ByteText& raw(Number value)
     {

@@ -16,7 +16,7 @@ void expectColour(double share, const Vec3& published, double tolerance)
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(viridis(share)[i], published[i], tolerance) << share << ", part " << i;
 }
 
-// The published colours have six digits; ours are whole 255ths, with straight lines between every fifth.
+// The published colours have six digits; ours are rounded to 255ths, with linear interpolation between every fifth.
 TEST(ColourMap, MatchesThePublishedMap)
 {
     expectColour(0, {0.267004, 0.004874, 0.329415}, 0.5 / 255);
@@ -32,7 +32,7 @@ TEST(ColourMap, StopsAtTheEnds)
     expectColour(INFINITY, viridis(1), 0);
 }
 
-// CIE lightness, a simpler measure of what looks alike than CAM02-UCS, in which the map's steps are equal.
+// CIE lightness, a simpler perceptual measure than CAM02-UCS, in which the map's steps are equal.
 TEST(ColourMap, GetsLighterInNearlyEqualSteps)
 {
     const auto lightness = [](double share)

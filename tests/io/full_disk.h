@@ -10,7 +10,8 @@
 namespace bullet_fem
 {
 
-/// While this lives no file of this process grows beyond so many bytes: as on a full disk, some of it can be written.
+/// During its lifetime no file of this process grows beyond a number of bytes: as on a full disk, the first part can be
+/// written.
 class FullDisk
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Films are read back by a JSON library and code of the test's own; validate_glb.sh asks the Khronos validator.
+// Films are read back by a JSON library and code of this test; validate_glb.sh runs the Khronos validator.
 #include "bullet_fem/io/glb_film.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A .glb file, taken apart.
+/// A parsed .glb file.
 struct Glb
 {
     explicit Glb(const std::string& bytes) : m_size(bytes.size())
@@ -47,7 +47,7 @@ struct Glb
         return value;
     }
 
-    /// The floats of an accessor, whose bounds, if given, are theirs.
+    /// The floats of an accessor; its bounds, if given, must match them.
     std::vector<float> floats(int index) const
     {
         const nlohmann::json& accessor = m_json["accessors"][index];
@@ -76,7 +76,7 @@ struct Glb
 
     const nlohmann::json& surface(int body) const { return m_json["meshes"][body]["primitives"][0]; }
     std::vector<float> base(int body, const char* name) const { return floats(surface(body)["attributes"][name]); }
-    /// Base and target of a frame >= 1 together: what a viewer shows then.
+    /// Base plus morph target of a frame >= 1, as a viewer displays it.
     std::vector<float> shown(int body, int frame, const char* name) const
     {
         std::vector<float> values = base(body, name);
@@ -90,7 +90,7 @@ struct Glb
     std::string m_binary;
 };
 
-/// Three frames of two boxes, the first of which rises.
+/// Three frames of two boxes, the first of which moves upwards.
 GlbFilm sampleFilm(const GlbSettings& settings = {})
 {
     GlbFilm film(settings);
@@ -106,7 +106,7 @@ Glb written(const GlbFilm& film)
     return Glb(folder.read("film.glb"));
 }
 
-// 26 of the 27 nodes are on the surface of a box; the 14th is inside.
+// 26 of the 27 nodes are on the surface of a box; node 13 is inside.
 TEST(GlbFilm, ShowsEveryFrameOfEveryBody)
 {
     const Glb glb = written(sampleFilm());

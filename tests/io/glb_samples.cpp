@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Writes films with all settings into the folder given, for the validator.
+// Writes films with all settings into the given folder, for the validator.
 #include <cstdio>
 #include <string>
 

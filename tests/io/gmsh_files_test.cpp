@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Files that Gmsh itself writes, where it is installed.
+// Files written by Gmsh itself, if it is installed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,12 +36,12 @@ protected:
         m_first = read("first.msh");
     }
 
-    /// Runs Gmsh in the folder, its output into a file there.
+    /// Runs Gmsh in the folder, with its output redirected to a file there.
     bool run(const std::string& arguments) const
     {
         return std::system(("cd '" + m_folder.path("") + "' && gmsh " + arguments + " >log 2>&1").c_str()) == 0;
     }
-    /// What Gmsh makes of the first file.
+    /// Converts the first file with Gmsh, and reads the result.
     TetMeshFile convert(const std::string& options, const std::string& name) const
     {
         EXPECT_TRUE(run("first.msh -save " + options + " -o " + name)) << m_folder.read("log");
@@ -66,7 +66,7 @@ TEST_F(GmshFiles, AreTheSameMeshInEveryFormat)
     const TetMesh mesh = m_first.mesh();
     EXPECT_GT(mesh.tetCount(), 200);
     EXPECT_EQ(mesh.componentCount(), 2);
-    EXPECT_GT(mesh.volume(), 6.6);  // of the box 6, and of the cylinder what a mesh of flat triangles inscribes
+    EXPECT_GT(mesh.volume(), 6.6);  // 6 of the box, and an inscribed polyhedron of the cylinder
     EXPECT_LT(mesh.volume(), 6 + 3.1416 / 4);
     EXPECT_GT(m_first.m_skippedFaces, 100u);
 
@@ -104,7 +104,7 @@ TEST_F(GmshFiles, SecondOrderMeshesAreRejected)
     EXPECT_THAT(messageOf<std::runtime_error>([&] { read("second.vtk"); }), HasSubstr("a quadratic tetrahedron"));
 }
 
-/// A bar of 10 x 1 x 1 m with cells of so many metres, meshed by Gmsh.
+/// A bar of 10 x 1 x 1 m, meshed by Gmsh with the given cell size [m].
 class GmshBar : public GmshFiles
 {
 protected:
@@ -118,8 +118,8 @@ protected:
         return read("bar.msh").mesh();
     }
 
-    // Tip deflection over Timoshenko's, of a small load that is spread over the end's nodes. A step of 1 s that starts
-    // from rest goes all the way where the body's periods are far shorter.
+    // Tip deflection over Timoshenko's under a small load, distributed over the end's nodes. A step of 1 s from rest
+    // reaches the equilibrium, because the body's periods are far shorter.
     static double tip(const TetMesh& mesh, double nu, bool isAccurate)
     {
         Material material;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Mesh files as other programs write them: with faults that a reader can go around, under other endings, and files that
-// are no meshes at all.
+// Variants of mesh files by other programs: with tolerated faults, with other line endings, and files that are no
+// meshes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TetMeshFile readAs(TetMeshFormat format, const std::string& bytes)
     return readTetMesh(bytes.data(), bytes.size(), format);
 }
 
-/// Every such text replaced by another.
+/// Replaces all occurrences of a text.
 std::string withEach(std::string bytes, const std::string& what, const std::string& by)
 {
     for (std::size_t at = 0; (at = bytes.find(what, at)) != std::string::npos; at += by.size())
@@ -34,7 +34,7 @@ std::string withEach(std::string bytes, const std::string& what, const std::stri
     return bytes;
 }
 
-/// A .vtk file with the unit tetrahedron and its mirror image below, whose CELLS and what follows them are given.
+/// A .vtk file with the unit tetrahedron and its mirror image below; CELLS and the text after it are given.
 std::string twoTets(const std::string& cells, const std::string& types)
 {
     return "# vtk DataFile Version 2.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0\n1 0 0\n0 1 0\n"
@@ -74,7 +74,7 @@ TEST(VtkCells, DefaultToTetrahedraIfAllHaveFourCorners)
                 ElementsAre(HasSubstr("2 types for 2 cells, but states 7")));
 }
 
-// Without types a square and a tetrahedron look alike.
+// Without types a quadrilateral and a tetrahedron are not distinguished.
 TEST(VtkCells, AreRejectedIfTypesAreAmbiguous)
 {
     const auto why = [](const std::string& bytes)
@@ -219,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
         ForeignFile{"Unknown", "solid\0mesh"s, "byte 5: it is a binary file, and of no format that is read; save"}),
     [](const auto& file) { return std::string(file.param.test); });
 
-// Such as the numbers of a binary file whose header says that it is text.
+// For example the numbers of a binary file whose header says ASCII.
 TEST(UnprintableWords, AreToldInWords)
 {
     const auto why = [](TetMeshFormat format, const std::string& bytes)

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// A box of 2 x 2 x 2 cells with all fields, stretched along x and pulled up by `lift` [m].
+/// A box of 2 x 2 x 2 cells with all fields, stretched along x and lifted by `lift` [m].
 inline BodyFrame sampleBox(int id, double lift = 0)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2}, {2.0 * id, 0, 0});
@@ -39,7 +39,7 @@ inline BodyFrame sampleBox(int id, double lift = 0)
     return body;
 }
 
-/// A triangle that has nothing but its place.
+/// A triangle with positions only.
 inline BodyFrame sampleTriangle(int id)
 {
     BodyFrame body;

@@ -85,7 +85,7 @@ std::string boxTextPly()
 {
     return plyHeader("ascii") + boxVertexLines("", " 255") + boxFaceLines("0.5 4", 0) + "0 1\n";
 }
-// As exporters write it that forget the word `comment`.
+// A PLY header as some exporters write it, without the word `comment`.
 std::string strayLine(std::string ply)
 {
     return ply.replace(ply.find("comment made"), 8, "");
@@ -132,7 +132,7 @@ std::string boxTextStl()
     text << "endsolid box\n";
     return text.str();
 }
-/// Zeros of both signs are the same place.
+/// Zeros of both signs are equal coordinates.
 std::string boxBinaryStl()
 {
     std::string bytes(80, ' ');
@@ -149,7 +149,7 @@ std::string boxBinaryStl()
     return bytes;
 }
 
-/// How many triangles share each edge: the fewest and the most.
+/// Number of triangles at an edge: minimum and maximum.
 std::pair<int, int> trianglesPerEdge(const SurfaceMesh& surface)
 {
     std::map<std::pair<int, int>, int> count;
@@ -238,7 +238,7 @@ TEST(SurfaceFile, DropsCollapsedTrianglesShortFacesAndUnusedVertices)
 {
     const TemporaryFolder folder;
     const std::string text =
-        "OFF\n6 4 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n0 0 0\nnan 0 0\n"  // 4 repeats 1; 0 and 5 are unused
+        "OFF\n6 4 0\n9 9 9\n0 0 0\n1 0 0\n0 1 0\n0 0 0\nnan 0 0\n"  // vertex 4 equals vertex 1; 0 and 5 are unused
         "3 1 2 3\n3 1 2 4\n2 1 2\n0\n";
     const SurfaceMesh surface = readSurfaceFile(folder.write("t.off", text));
     EXPECT_EQ(surface.m_vertices.size(), 3u);
@@ -255,7 +255,7 @@ TEST(SurfaceFile, KeepsVertexOrder)
         EXPECT_EQ(norm(surface.m_vertices[i] - kBoxCorners[i]), 0) << i;
 }
 
-// 0xRRGGBB, whatever the order and the type of a PLY file's colours.
+// 0xRRGGBB, for any order and type of a PLY file's colours.
 TEST(SurfaceFile, KeepsColoursOfPlyVerticesAsLabels)
 {
     const TemporaryFolder folder;
@@ -282,7 +282,7 @@ TEST(SurfaceFile, KeepsColoursOfPlyVerticesAsLabels)
     EXPECT_TRUE(labels("", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n").empty());
 }
 
-// A fan of so many triangles, every corner in another colour.
+// A fan of triangles around corner 0; no two corners have equal colours.
 TEST(SurfaceFile, TreatsTooManyColoursAsAPhotograph)
 {
     const TemporaryFolder folder;

@@ -27,7 +27,7 @@ const std::vector<BodyFrame>& sampleBodies()
     return bodies;
 }
 
-// The surfaces as the reader gives them: 26 + 3 + 26 vertices, 48 + 1 + 48 triangles, the boxes' volumes.
+// Checks the surfaces that were read back: 26 + 3 + 26 vertices, 48 + 1 + 48 triangles, the boxes' volumes.
 void expectSampleSurface(const SurfaceMesh& mesh)
 {
     ASSERT_EQ(mesh.m_vertices.size(), 55u);
@@ -58,7 +58,7 @@ TEST(SurfaceWriter, PlyIsReadBack)
     expectSampleSurface(readSurfaceFile(folder.path("frame.ply")));
 }
 
-// A vertex takes 3 + 1 floats and 3 colours; a face a count, 3 indices and the body.
+// A vertex has 3 + 1 floats and 3 colours; a face has a count, 3 indices and the body.
 TEST(SurfaceWriter, PlyHasStressColoursAndBodies)
 {
     const TemporaryFolder folder;

@@ -16,7 +16,7 @@
 namespace bullet_fem
 {
 
-/// A folder of its own for one test, gone with it.
+/// A new folder for one test, deleted at its end.
 class TemporaryFolder
 {
 public:
@@ -44,7 +44,7 @@ public:
         EXPECT_TRUE(file.is_open()) << path(name);
         return std::string(std::istreambuf_iterator<char>(file), {});
     }
-    /// Of everything in it, sorted.
+    /// Sorted names of all entries.
     std::vector<std::string> names() const
     {
         std::vector<std::string> names;
@@ -58,7 +58,7 @@ private:
     std::string m_path;
 };
 
-/// Runs `act` and returns what the `Exception` it must throw says.
+/// Runs `act`, expects an `Exception`, and returns its message.
 template <typename Exception, typename Act>
 std::string messageOf(Act act)
 {

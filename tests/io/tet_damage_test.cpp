@@ -15,8 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-/// Reads whatever this is from memory of just this size, where sanitizers see what is read beyond. Any mesh that comes
-/// out must be whole; true if one does. Errors must be runtime errors that say something.
+/// Reads arbitrary bytes from a buffer of exactly their size, so that sanitizers detect reads beyond it. A resulting
+/// mesh must be valid; returns true if there is one. Errors must be std::runtime_error with a message.
 bool readsWhole(const std::string& bytes, TetMeshFormat format)
 {
     const std::vector<char> exact(bytes.begin(), bytes.end());
@@ -55,7 +55,7 @@ TEST_P(TetDamageTest, TruncationGivesAnErrorOrAMesh)
     int whole = 0;
     for (std::size_t size = 0; size < file.bytes.size(); ++size)
         whole += readsWhole(file.bytes.substr(0, size), file.format);
-    // What stands behind the tetrahedra may be cut off, and in text digits of the last number or its end.
+    // The bytes after the tetrahedra may be cut off, and in text formats digits of the last number.
     EXPECT_LE(whole, static_cast<int>(file.bytes.size()) / 2);
     EXPECT_FALSE(readsWhole(file.bytes.substr(0, file.bytes.size() / 2), file.format));
 }
@@ -141,7 +141,7 @@ TEST(TetDamage, BombsOfZlibAreRefused)
                 testing::HasSubstr("far more numbers than it has bytes"));
 }
 
-/// Pieces that all have the same array of points.
+/// Components that share one array of points.
 TEST(TetDamage, ArraysUsedAgainAndAgainAreRefused)
 {
     constexpr int points = 4000, pieces = 400;

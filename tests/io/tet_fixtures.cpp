@@ -47,7 +47,7 @@ std::string gmsh2Binary(bool bigEndian)
     return file.bytes();
 }
 
-/// With sizes of 4 or 8 bytes, and nodes with two parameters in their second block.
+/// Binary Gmsh 4 with sizes of 4 or 8 bytes, and two parameters per node in the second block.
 std::string gmsh4Binary(bool bigEndian, int sizeBytes)
 {
     ByteText file(bigEndian);
@@ -147,7 +147,7 @@ std::string vtkBinary(const std::string& version, const std::string& real, const
     return file.bytes();
 }
 
-/// As Bullet's own data are: sizes that do not fit, and no types.
+/// A .vtk file as in Bullet's data: with wrong sizes, and without types.
 std::string vtkOfBullet()
 {
     return "#vtk DataFile Version 2.0\nI know\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n0 0 0\n1 0 0\n0 1 0\n"

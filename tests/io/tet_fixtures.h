@@ -11,15 +11,15 @@
 namespace bullet_fem
 {
 
-/// A file, made by hand, of one and the same mesh: two tetrahedra on five nodes, and a sixth node that only a triangle
-/// uses. Without GoogleTest, so that fuzzers can begin with it.
+/// A hand-made file of a common mesh: two tetrahedra on five nodes, and a sixth node that only a triangle uses. Without
+/// GoogleTest, so that fuzzers can use it as a seed.
 struct TetFixture
 {
     std::string name;  ///< letters and digits
     TetMeshFormat format;
     std::string bytes;
-    std::size_t faces = 1, edges = 1, points = 1;  ///< that are skipped
-    std::string version;                           ///< what m_version must be
+    std::size_t faces = 1, edges = 1, points = 1;  ///< numbers of skipped elements
+    std::string version;                           ///< expected value of m_version
 };
 
 inline std::ostream& operator<<(std::ostream& out, const TetFixture& fixture)
@@ -27,16 +27,15 @@ inline std::ostream& operator<<(std::ostream& out, const TetFixture& fixture)
     return out << fixture.name;
 }
 
-/// The nodes that all the files have, in their order; number 3 is the one without tetrahedra. Exact in single
-/// precision.
+/// The common nodes of all files, in order; node 3 belongs to no tetrahedron. Exact in single precision.
 const std::vector<Vec3>& fixtureNodes();
-/// The tetrahedra that all the files have, by places in fixtureNodes().
+/// The common tetrahedra of all files, by index into fixtureNodes().
 const std::vector<Tet>& fixtureTets();
 
-/// Every format, version, encoding, byte order and layout that is read.
+/// Fixtures of all supported formats, versions, encodings, byte orders and layouts.
 std::vector<TetFixture> tetFixtures();
 
-/// Version 1, whose section of nodes is $NOD or $NOE.
+/// Gmsh version 1, with the section of nodes called $NOD or $NOE.
 std::string gmsh1Text(const std::string& nodes);
 std::string gmsh2Text(const std::string& version);
 std::string gmsh4Text();
@@ -45,14 +44,14 @@ std::string vtkText(const std::string& version);
 std::string vtuText();
 std::string meditText(int version);
 
-/// How a .vtu file holds its arrays.
+/// The layout of arrays in a .vtu file.
 struct VtuLayout
 {
-    const char* format = "binary";  ///< or "raw" or "base64", of appended data
+    const char* format = "binary";  ///< or "raw" or "base64", for appended data
     bool bigEndian = false;
     int headerBytes = 4;
-    std::size_t blockBytes = 0;  ///< of zlib's blocks; 0 for no compression
-    bool paddedHeader = false;   ///< base64 of an uncompressed array's count by itself
+    std::size_t blockBytes = 0;  ///< size of zlib's blocks; 0 for no compression
+    bool paddedHeader = false;   ///< base64 of an uncompressed array's byte count, padded by itself
     const char* real = "Float64";
     const char* integer = "Int64";
 };

@@ -42,7 +42,7 @@ const char* endingOf(TetMeshFormat format)
     return "";
 }
 
-/// The fixtures' two tetrahedra on their five nodes, and nothing else, with the same bits.
+/// Expects exactly the fixtures' two tetrahedra on their five nodes, bitwise equal.
 void expectTheFixture(const TetMeshFile& mesh)
 {
     ASSERT_EQ(mesh.m_positions.size(), 5u);
@@ -60,7 +60,7 @@ TEST_P(TetFixtureTest, IsTheSameMesh)
 {
     const TetMeshFile mesh = readText(GetParam().bytes, GetParam().format);
     expectTheFixture(mesh);
-    EXPECT_GE(mesh.m_unusedNodes, 1u);  // more, if pieces have nodes of their own
+    EXPECT_GE(mesh.m_unusedNodes, 1u);  // more, if components have nodes of their own
     EXPECT_EQ(mesh.m_skippedFaces, GetParam().faces);
     EXPECT_EQ(mesh.m_skippedEdges, GetParam().edges);
     EXPECT_EQ(mesh.m_skippedPoints, GetParam().points);
@@ -72,7 +72,7 @@ TEST_P(TetFixtureTest, IsReadFromAFile)
 {
     const TemporaryFolder folder;
     std::string bytes = GetParam().bytes;
-    const std::size_t nodesEnd = bytes.find("2 4 ");  // where TetGen's second file begins
+    const std::size_t nodesEnd = bytes.find("2 4 ");  // the start of TetGen's second file
     if (GetParam().format == TetMeshFormat::tetgen)
     {
         folder.write("mesh.node", bytes.substr(0, nodesEnd));
@@ -95,7 +95,7 @@ TEST(TetMeshFile, ReportsTheNodeNumbersOfTheFile)
     EXPECT_EQ(readText(vtuText(), TetMeshFormat::vtu).m_unusedNodes, 1u);
 }
 
-// As some of the files that come with Bullet are.
+// As in some of Bullet's own files.
 TEST(TetMeshFile, TakesVtkFilesWithoutTheBlankOfTheirFirstLine)
 {
     const std::string text =
@@ -169,7 +169,7 @@ TEST(TetMeshFile, MeshRejectsInvalidElements)
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { mesh.mesh(); }), HasSubstr("twice"));
 }
 
-/// A fixture in which one text, the first such, is replaced by another; nothing if it is not there.
+/// A fixture with the first occurrence of a text replaced; empty if there is none.
 std::string replaced(std::string bytes, const std::string& what, const std::string& by)
 {
     const std::size_t at = bytes.find(what);

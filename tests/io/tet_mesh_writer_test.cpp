@@ -19,7 +19,7 @@ namespace
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A ball, moved and scaled so that coordinates have all their digits and many magnitudes; one of them is -0.
+/// A ball, moved and scaled to coordinates with all digits and many magnitudes; one of them is -0.
 TetMesh awkwardMesh()
 {
     const TetMesh ball = makeSphere(1. / 3, 6);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The regions of tetrahedra in all formats: two that share a face, of regions 7 and -3, beside a triangle of region 5.
+// Region labels of tetrahedra in all formats: two tetrahedra with a common face, of regions 7 and -3, beside a triangle
+// of region 5.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/io/tet_mesh_file.h"

@@ -15,7 +15,7 @@ namespace
 struct Areas
 {
     double sum = 0;     ///< length of the summed area vectors
-    double ofEach = 0;  ///< sum of the lengths: larger if triangles overlap with opposite senses
+    double ofEach = 0;  ///< sum of the area vectors' lengths: larger if triangles overlap with opposite orientation
     std::size_t count = 0;
 };
 
@@ -39,7 +39,7 @@ Areas triangulatedAreas(const std::vector<Vec3>& positions)
     return areas;
 }
 
-/// Some place in space, so that no axis is special.
+/// A point of an oblique plane, so that no axis is special.
 Vec3 placed(double u, double v)
 {
     return Vec3{1, -2, 3} + u * Vec3{0.6, 0.8, 0} + v * Vec3{0, 0, 1};
@@ -67,7 +67,7 @@ TEST(Triangulate, CoversConvexPolygonsOfAnySize)
 
 TEST(Triangulate, ConcavePolygonIsNotCoveredTwice)
 {
-    // A comb of two teeth, from a corner where a fan would leave the polygon.
+    // A comb of two teeth, starting at a corner from which a fan would leave the polygon.
     const Areas areas = triangulatedAreas({placed(1, 1), placed(1, 3), placed(0, 3), placed(0, 0), placed(3, 0),
                                            placed(3, 3), placed(2, 3), placed(2, 1)});
     EXPECT_EQ(areas.count, 6u);
@@ -77,7 +77,7 @@ TEST(Triangulate, ConcavePolygonIsNotCoveredTwice)
 
 TEST(Triangulate, CoversAPolygonWithABridgedHole)
 {
-    // Square of 3 with a hole of 1; corners 0 and 4 come again at the bridge.
+    // A square of 3 with a hole of 1; corners 0 and 4 are repeated at the bridge.
     const Areas areas = triangulatedAreas({placed(0, 0), placed(3, 0), placed(3, 3), placed(0, 3), placed(0, 0),
                                            placed(1, 1), placed(1, 2), placed(2, 2), placed(2, 1), placed(1, 1)});
     EXPECT_EQ(areas.count, 8u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Frames of several bodies with all fields, in all encodings; base 64 and zlib undone by code of the test's own.
+// Frames of several bodies with all fields, in all encodings; this test decodes base64 and zlib itself.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -57,7 +57,7 @@ std::string unpacked(const std::string& text, bool compressed)
         EXPECT_EQ(word(bytes, 0), bytes.size() - 8);
         return bytes.substr(8);
     }
-    // The header is encoded apart: so many words that its length is known from the first.
+    // The header is encoded separately; its length follows from its first word.
     const std::uint64_t blocks = word(base64Decoded(text.substr(0, 12)), 0);
     const std::size_t headerText = (8 * (3 + blocks) + 2) / 3 * 4;
     const std::string header = base64Decoded(text.substr(0, headerText)),
@@ -88,7 +88,7 @@ std::vector<double> numbersIn(const std::string& bytes)
     return {numbers.begin(), numbers.end()};
 }
 
-/// The numbers of the DataArray called `name` after `section`.
+/// The numbers of the DataArray `name` after `section`.
 std::vector<double> numbersOf(const std::string& xml, const std::string& section, const std::string& name)
 {
     const std::size_t array = xml.find("Name=\"" + name + "\"", xml.find("<" + section));
@@ -146,7 +146,7 @@ TEST_P(VtuBodies, CellsOfAllBodiesShareOneVtkBlock)
     EXPECT_NEAR(points[3 * 26], m_bodies[0].m_positions[26].x, 1e-7);
 }
 
-// And it is read back as what the mesh's file had.
+// The file is read back with the mesh file's regions.
 TEST_P(VtuBodies, RegionsOfBodiesWithoutAnyAreZero)
 {
     EXPECT_THAT(m_xml, Not(HasSubstr("region")));
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, VtuBodies,
                          testing::Values(VtuEncoding::text, VtuEncoding::binary, VtuEncoding::compressed),
                          encodingName);
 
-// 21,483 nodes and 96,000 cells: more than one block of compressed bytes in every array.
+// 21,483 nodes and 96,000 cells: each array has more than one compressed block.
 TEST(VtuEncodings, BinaryIsSmallerAndCompressedSmallerStill)
 {
     BodyFrame body;

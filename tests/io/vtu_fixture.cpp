@@ -27,7 +27,7 @@ std::string base64(const std::string& bytes)
     return text;
 }
 
-// With the smallest tables: to clear the usual ones takes longer than all else in these tests.
+// Deflates with the smallest tables: clearing the default ones would take most of the test's time.
 std::string deflated(const std::string& bytes)
 {
     constexpr int kWindowBits = 15, kMemoryLevel = 1;
@@ -54,7 +54,7 @@ void appendCount(ByteText& file, std::size_t count, const VtuLayout& layout)
         file.raw(static_cast<std::uint32_t>(count));
 }
 
-/// An array as it stands in the file.
+/// An array as encoded in the file.
 std::string encoded(const std::string& bytes, const VtuLayout& layout)
 {
     ByteText header(layout.bigEndian);

@@ -25,7 +25,7 @@ const std::vector<Vec3> kPositions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.123456
 const std::vector<Triangle> kTriangles = {{0, 1, 2}, {3, 2, 1}};
 const std::vector<Vec3> kDisplacement = {{0, 0, 0.5}, {0, 0, 0.25}, {0, 0, 0}, {1, 2, 3}};
 
-/// The numbers of the DataArray called `name`.
+/// The numbers of the DataArray `name`.
 std::vector<double> numbersOf(const std::string& text, const std::string& name)
 {
     const std::size_t array = text.find("Name=\"" + name + "\"");
@@ -67,7 +67,7 @@ TEST(VtuSeries, PvdListsEveryFrameWithItsTime)
     VtuSeries series(folder.path("out"), "drop");
     EXPECT_EQ(series.pvdPath(), folder.path("out/drop.pvd"));
     EXPECT_THAT(folder.read("out/drop.pvd"),
-                Not(HasSubstr("DataSet")));  // of a run that wrote nothing, but well formed
+                Not(HasSubstr("DataSet")));  // an empty, well-formed collection
     series.writeTriangles(0, kPositions, kTriangles);
     EXPECT_THAT(folder.read("out/drop.pvd"), HasSubstr("timestep=\"0\" part=\"0\" file=\"drop_000000.vtu\""));
     series.writeTriangles(1. / 60, kPositions, kTriangles);
@@ -141,7 +141,7 @@ TEST(VtuSeries, ReportsAFullDiskAndGoesOnAfterwards)
     const TemporaryFolder folder;
     VtuSeries series(folder.path("out"), "drop");
     const std::string frame = folder.path("out/drop_000000.vtu");
-    std::filesystem::create_symlink("/dev/full", frame);  // opens, and refuses every byte
+    std::filesystem::create_symlink("/dev/full", frame);  // opening succeeds, each write fails
     EXPECT_THAT(messageOf<std::runtime_error>([&] { series.writeTriangles(0, kPositions, kTriangles); }),
                 AllOf(HasSubstr(frame), HasSubstr("disk not full")));
     EXPECT_EQ(series.frameCount(), 0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Uses a function whose name is the same in both precisions, while the size of what it returns is not: without a guard
-// it links with either library.
+// Uses a function with a common name in both precisions, and results of different size: without a guard it links with
+// either library.
 #include <bullet_fem/btFemMaterial.h>
 
 int main()

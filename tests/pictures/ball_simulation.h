@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// A ball that can be dragged in its plane z = 0, and two parameters. It counts what is asked of it.
+/// A ball that can be dragged in its plane z = 0, with two parameters. It counts the calls that it receives.
 class BallSimulation : public ViewerSimulation
 {
 public:

@@ -55,7 +55,7 @@ protected:
     FilmRecorder m_film{m_folder.path("films")};
 };
 
-// A frame every thirtieth of a second of the simulation, whatever the steps are, and none in a pause.
+// One frame for each thirtieth of a second of simulated time, for any steps, and none in a pause.
 TEST_F(FilmRecorderTest, FilmsTheSimulationsTime)
 {
     EXPECT_FALSE(m_film.recording());

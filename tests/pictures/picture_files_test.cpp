@@ -96,7 +96,7 @@ void writeFilm(const std::string& path, const PictureSize& size)
     film.finish();
 }
 
-/// What a command prints.
+/// The standard output of a command.
 std::string printed(const std::string& command)
 {
     std::string text;
@@ -169,7 +169,7 @@ TEST(Film, RejectsInvalidFilms)
     EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-/// Puts a program of its own in place of ffmpeg, or none.
+/// Replaces ffmpeg by a program of the test, or by none.
 class FilmWithoutFfmpeg : public testing::Test
 {
 protected:

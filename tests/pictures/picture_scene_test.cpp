@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A scene with one of everything.
+/// A scene with one object of each kind.
 PictureScene fullScene()
 {
     PictureScene scene = emptyScene();

@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// A ball of 2 n^2 quadrilaterals around `centre`; its corners lie on the sphere.
+/// A ball of 2 n^2 quadrilaterals around `centre`; its vertices lie on the sphere.
 inline PictureMesh ball(const Vec3& centre, double radius, int n = 48)
 {
     const double pi = std::acos(-1.);
@@ -55,7 +55,7 @@ inline PictureMesh cube(const Vec3& centre, double half)
     return mesh;
 }
 
-/// Seen from the front, from (0, 0, 5) to the origin, with an empty background and no ground.
+/// A view from (0, 0, 5) to the origin, with an empty background and no ground.
 inline PictureScene emptyScene()
 {
     PictureScene scene;
@@ -65,7 +65,7 @@ inline PictureScene emptyScene()
     return scene;
 }
 
-/// The pixel in which `point` is seen.
+/// The pixel at the projection of `point`.
 inline std::array<int, 3> pixelAt(const Image& image, const PictureCamera& camera, const Vec3& point)
 {
     const PicturePoint p = projected(camera, image.m_size, point);
@@ -77,13 +77,13 @@ inline int brightness(const std::array<int, 3>& pixel)
     return pixel[0] + pixel[1] + pixel[2];
 }
 
-/// The largest difference of any part, of 255.
+/// Maximum difference of a colour component, out of 255.
 inline int difference(const std::array<int, 3>& a, const std::array<int, 3>& b)
 {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-/// A colour as pixels hold it.
+/// A colour as a pixel value.
 inline std::array<int, 3> bytes(const Vec3& c)
 {
     const auto byte = [](double part) { return static_cast<int>(std::lround(255 * part)); };

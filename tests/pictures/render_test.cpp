@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr PictureSize kSize{320, 240};
 
-/// One renderer for all tests: a context takes a while.
+/// One renderer for all tests, because creating a context is slow.
 Image render(const PictureScene& scene, const PictureSize& size = kSize)
 {
     static OffscreenRenderer renderer;
@@ -46,7 +46,8 @@ TEST(Render, ShowsSomething)
     EXPECT_GT(colours.size(), 500u) << "shades of ball, ground, shadow and sky";
 }
 
-/// A ball, off the picture's middle: every pixel whose ray misses the sphere is background, every other is the ball's.
+/// A ball, off the picture's middle: each pixel whose ray misses the sphere is background, each other one is the
+/// ball's.
 TEST(Render, BallSilhouetteFollowsTheProjection)
 {
     const Vec3 centre{0.9, 0.5, -0.4};
@@ -75,7 +76,7 @@ TEST(Render, BallSilhouetteFollowsTheProjection)
     EXPECT_GT(dot(a.m_right, centre), 0);
 }
 
-/// The light comes from the upper left: the ball's shadow lies where the ray through its centre meets the ground.
+/// Light from the upper left: the ball's shadow is at the intersection of the ground and the ray through its centre.
 TEST(Render, ShadowFollowsTheGeometry)
 {
     PictureScene scene;
@@ -120,7 +121,7 @@ TEST(Render, ScalarsShowTheColourMapFromEndToEnd)
     for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99})
         EXPECT_LE(difference(pixelAt(image, scene.m_camera, {2 * share - 1, 0.1, 0}), bytes(viridis(share))), 2)
             << share;
-    scene.m_meshes[0].m_scalars = {-1e300, 1e300, 1e300, -1e300};  // beyond the scale: its ends
+    scene.m_meshes[0].m_scalars = {-1e300, 1e300, 1e300, -1e300};  // beyond the scale: clamped
     const Image beyond = render(scene);
     EXPECT_LE(difference(pixelAt(beyond, scene.m_camera, {-0.5, 0, 0}), bytes(viridis(0))), 1);
     EXPECT_LE(difference(pixelAt(beyond, scene.m_camera, {0.5, 0, 0}), bytes(viridis(1))), 1);
@@ -144,7 +145,7 @@ TEST(Render, LegendHasTheColourMapItsTitleAndItsNumbers)
     for (const double share : {0., 0.25, 0.5, 0.75, 1.}) EXPECT_LE(nearest(viridis(share)), 4) << share;
 
     PictureScene other = scene;
-    other.m_colourScale.m_title = "Mises von stress";  // as wide
+    other.m_colourScale.m_title = "Mises von stress";  // of equal width
     EXPECT_GT(differentPixels(image, render(other)), 5) << "the title";
     other = scene;
     other.m_colourScale.m_high = 2e6;
@@ -156,7 +157,7 @@ TEST(Render, LegendHasTheColourMapItsTitleAndItsNumbers)
     const Image bare = render(other);
     other.m_colourScale.m_legend = true;
     EXPECT_EQ(differentPixels(bare, render(other)), 0) << "no scalars, no legend";
-    other.m_caption = "t = 1 s, 5 µm, \xff\xe2\x82";  // broken bytes, too
+    other.m_caption = "t = 1 s, 5 µm, \xff\xe2\x82";  // with invalid UTF-8, too
     const Image captioned = render(other);
     EXPECT_GT(differentPixels(bare, captioned), 20) << "the caption";
     other.m_textSize = 2;
@@ -256,7 +257,7 @@ TEST(Render, TwoRendersAreIdentical)
     EXPECT_EQ(another.render(scene, kSize).m_pixels, first.m_pixels);
 }
 
-/// Moved far away, or a thousand times larger or smaller, a scene looks the same.
+/// A scene that is moved far away, or scaled by a thousand, gives an equal picture.
 TEST(Render, PlaceAndSizeOfTheWorldDoNotMatter)
 {
     const auto scene = [](const Vec3& origin, double unit)
@@ -271,13 +272,13 @@ TEST(Render, PlaceAndSizeOfTheWorldDoNotMatter)
         return render(s);
     };
     const Image here = scene({0, 0, 0}, 1);
-    const int few = kSize.m_width * kSize.m_height / 200;  // rounding decides single texels of the shadow map
+    const int few = kSize.m_width * kSize.m_height / 200;  // rounding changes single texels of the shadow map
     EXPECT_LT(differentPixels(here, scene({1e6, 2e6, -3e6}, 1)), few);
     EXPECT_LT(differentPixels(here, scene({0, 0, 0}, 1e-3)), few);
     EXPECT_LT(differentPixels(here, scene({0, 0, 0}, 1e3)), few);
 }
 
-/// What moves out of the picture changes the ground in it, unless the film has bounds.
+/// An object that leaves the picture changes the ground in it, unless the film has bounds.
 TEST(Render, BoundsKeepTheGroundOfAFilmTheSame)
 {
     PictureScene scene;
@@ -292,7 +293,7 @@ TEST(Render, BoundsKeepTheGroundOfAFilmTheSame)
     EXPECT_LT(differentPixels(frame(1), frame(80)), 50) << "texels of the shadow";
     const Image crowded = frame(80);
     scene.m_meshes.pop_back();
-    EXPECT_LT(differentPixels(crowded, render(scene)), 50) << "shadows are as fine as without the far one";
+    EXPECT_LT(differentPixels(crowded, render(scene)), 50) << "the far object does not coarsen shadows";
 }
 
 TEST(Render, EmptyScenesAndFlatMeshesAreDrawn)
@@ -304,7 +305,7 @@ TEST(Render, EmptyScenesAndFlatMeshesAreDrawn)
     scene.m_meshes[0].m_triangles = {{0, 1, 2}, {0, 0, 0}};
     scene.m_meshes[0].m_wireframe = true;
     scene.m_arrows = {PictureArrows{}};
-    scene.m_light.m_towards = {1, 0, 0};  // level with the ground
+    scene.m_light.m_towards = {1, 0, 0};  // parallel to the ground
     EXPECT_NO_THROW(render(scene));
 }
 
@@ -317,7 +318,7 @@ TEST(Render, RejectsBadScenesAndSizes)
     scene.m_meshes[0].m_positions[0].x = std::nan("");
     EXPECT_THAT(messageOf<std::invalid_argument>([&] { render(scene); }), HasSubstr("mesh 0: position 0"));
     scene.m_meshes[0].m_positions[0].x = 0;
-    EXPECT_NO_THROW(render(scene)) << "the renderer is as good as before";
+    EXPECT_NO_THROW(render(scene)) << "the renderer still works";
 }
 
 TEST(RenderDeathTest, AdvisesInstallingADriverWithoutEgl)

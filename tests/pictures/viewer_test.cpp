@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Needs a display: run through xvfb-run where there is none.
+//
+// The viewer's events and panels. Needs a display: use xvfb-run if there is none.
 #include "tools/pictures/viewer.h"
 
 #include <gmock/gmock.h>
@@ -37,7 +38,7 @@ protected:
         m_viewer->frame(0);
     }
 
-    /// Each in a frame of its own.
+    /// Sends each event in a frame of its own.
     void play(const std::vector<ViewerEvent>& events)
     {
         for (const ViewerEvent& event : events)
@@ -82,7 +83,7 @@ TEST_F(ViewerTest, AScriptedDragMovesTheBallInThePictureToo)
     EXPECT_EQ(m_simulation.m_steps, 5);
     const Image after = m_viewer->screenshot();
     ASSERT_EQ(after.m_size.m_width, 800);
-    const auto isBall = [&](const Image& image, const Vec3& x)  // orange before blue and white
+    const auto isBall = [&](const Image& image, const Vec3& x)  // orange on a blue and white background
     {
         const std::array<int, 3> p = pixelAt(image, camera, x);
         return p[0] > 1.4 * p[2];

@@ -46,7 +46,7 @@ std::string readAll(int pipe)
 SoakOutcome runInChild(const std::function<SoakOutcome()>& run, int seconds)
 {
     int ends[2];
-    std::fflush(nullptr);  // or the child would write it again
+    std::fflush(nullptr);  // otherwise the child would write it, too
     if (pipe(ends) != 0) throw std::runtime_error("there is no pipe to be had; close other programs");
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("there is no process to be had; close other programs");

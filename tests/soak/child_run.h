@@ -10,9 +10,9 @@
 namespace bullet_fem
 {
 
-/// Runs it in a process of its own, so that a crash is a fault like any other ("it ended by signal 11"), and one that
-/// takes more than `seconds` of processor time [s], too ("it took more than 60 s of a processor"). Throws
-/// std::runtime_error if there is no process to be had. POSIX alone.
+/// Runs `run` in a child process, so that a crash is reported as a fault ("it ended by signal 11"), and so is a run of
+/// more than `seconds` of processor time [s] ("it took more than 60 s of a processor"). Throws std::runtime_error if no
+/// process can be created. POSIX only.
 SoakOutcome runInChild(const std::function<SoakOutcome()>& run, int seconds);
 
 }  // namespace bullet_fem

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Random programs in all worlds, couplings and manners, for as long as one likes. What fails is made small and told
-// with the command that repeats it.
+// Random programs in all worlds, couplings and manners, without end. A failing program is minimised and reported with
+// the command that repeats it.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -22,7 +22,7 @@ namespace
 {
 using namespace bullet_fem;
 
-// By SIGINT or SIGTERM: the program that runs is the last one.
+// Set by SIGINT or SIGTERM: the running program is the last one.
 volatile std::sig_atomic_t isEnding = 0;
 
 void endSoon(int)
@@ -78,7 +78,7 @@ SoakOutcome runCase(const SoakCase& soak, const Options& options)
     return runInChild([&] { return run(soak); }, options.m_maxSeconds);
 }
 
-// Any fault counts, or leaving acts out would be held up by the number of the act in the message.
+// The minimiser accepts any fault, because messages contain the number of the act.
 void tell(SoakCase soak, const SoakOutcome& outcome, const Options& options)
 {
     constexpr int kMaxRuns = 300;
@@ -125,7 +125,7 @@ bool soakAll(const Options& options)
     return all.m_faults == 0;
 }
 
-// In this process, for a debugger.
+// Runs in this process, for a debugger.
 bool repeat(const Options& options)
 {
     SoakCase soak = soakCase(options.m_first, options.m_acts);

@@ -15,16 +15,16 @@ namespace bullet_fem
 namespace
 {
 
-// Ten times what is thrown: light bodies are hit by heavy ones.
+// Ten times the initial speed: light bodies are hit by heavy ones.
 constexpr double kFastest = 100;  // [m/s]
-// Programs put bodies into others. What is pushed out of one of 1 GPa is crushed, and springs back.
+// Programs put bodies into others. A body of 1 GPa is crushed by position correction, and springs back.
 constexpr double kFastestCrushed = 1000;  // [m/s]
 constexpr int kTellsOfWork = BT_FEM_NOT_CONVERGED | BT_FEM_STALE_FACTOR | BT_FEM_SEVERAL_PIECES | BT_FEM_REFACTORED |
                              BT_FEM_LOST_ANCHOR | BT_FEM_REFACTOR_PAYS | BT_FEM_CONTACT_LIMIT | BT_FEM_SLIVERS |
                              BT_FEM_SOLVED_AFTER | BT_FEM_TOO_SOFT;
 constexpr int kTellsOfCrushing = BT_FEM_PENETRATING | BT_FEM_INSIDE_OUT;
 
-// What has been written to a body that is not active stays in it.
+// Inactive bodies keep values that the program wrote.
 std::string faultOf(const btSoftBody& body)
 {
     return allFinite(body) || !body.isActive() ? "" : "a node is not finite";
@@ -37,7 +37,7 @@ std::string faultOf(const btRigidBody& body)
     return finite ? "" : "a rigid body is not finite";
 }
 
-// What is put to sleep keeps the velocity that it had, but not the flags that told why.
+// A body put to sleep keeps its velocity, but not the flags that explain it.
 std::string gentleFaultOf(const btFemSoftBodySolver& fem, const btSoftBody& body)
 {
     if (!body.isActive()) return "";
@@ -47,7 +47,7 @@ std::string gentleFaultOf(const btFemSoftBodySolver& fem, const btSoftBody& body
     if (fastest > (flags & kTellsOfCrushing ? kFastestCrushed : kFastest))
         return message("a node is as fast as ", fastest, " m/s");
     if (flags & kTellsOfCrushing) return "";
-    if (flags & BT_FEM_CONTACT_LIMIT) return "";  // what it has no contacts for goes into the floor
+    if (flags & BT_FEM_CONTACT_LIMIT) return "";  // bodies without contacts sink into the floor
     if (massOf(body) > 0 && centerOf(body).z < 0) return message("its centre is at z = ", centerOf(body).z, " m");
     return "";
 }

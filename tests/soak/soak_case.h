@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// A random program: what makes it, and which of its acts are done.
+/// A random program: its parameters, and the numbers of its acts.
 struct SoakCase
 {
     WorldClass m_world = WorldClass::softRigid;
@@ -20,24 +20,24 @@ struct SoakCase
     std::vector<int> m_acts;  ///< ascending
 };
 
-/// The `k`-th case of a soak: worlds, couplings and manners in turns, with `acts` acts.
+/// The `k`-th case of a soak: it cycles through worlds, couplings and manners, with `acts` acts.
 SoakCase soakCase(unsigned k, int acts);
 
-/// What a case was, for the command that repeats it: "softRigid coupled gentle 17".
+/// The case's name, for the command that repeats it: "softRigid coupled gentle 17".
 std::string nameOf(const SoakCase& soak);
 
-/// How a case ended.
+/// The result of a case.
 struct SoakOutcome
 {
-    std::string m_fault;  ///< what was wrong first, and where; empty if nothing
-    long m_steps = 0;     ///< of the world
-    int m_refusals = 0;   ///< of bad input
+    std::string m_fault;  ///< first fault and its place; empty if none
+    long m_steps = 0;     ///< world steps
+    int m_refusals = 0;   ///< rejected bad inputs
 };
 
-/// Runs a case in this process, and looks at the world after every act that steps it: numbers are finite; of a gentle
-/// program nothing is faster than 100 m/s, no soft body's centre is below the floor, no flag but those that tell of
-/// crushing or of work done anew, and a restored state goes the same way to the bit.
-/// `watch`, if any, sees the program after every act.
+/// Runs a case in this process, and checks the world after each act that steps it: numbers are finite; for a gentle
+/// program also that nothing is faster than 100 m/s, no soft body's centre is below the floor, no flags are set but
+/// those of crushing or of repeated work, and a restored state is continued bitwise equal. `watch`, if any, is called
+/// after each act.
 SoakOutcome run(const SoakCase& soak, void (*watch)(int act, RandomProgram& program) = nullptr);
 
 }  // namespace bullet_fem

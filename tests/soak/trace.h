@@ -7,8 +7,8 @@
 namespace bullet_fem
 {
 
-/// Prints what an act did, and where it leaves every body: mass [kg], centre [m], the fastest node and its speed [m/s],
-/// kinetic energy [J], pinned nodes, anchors, flags and iterations of the last step; of rigid ones mass, place,
+/// Prints an act and the resulting state of each body: mass [kg], centre [m], the fastest node and its speed [m/s],
+/// kinetic energy [J], pinned nodes, anchors, flags and iterations of the last step; for rigid bodies mass, position,
 /// velocities [m/s], [rad/s].
 void printTrace(int act, RandomProgram& program);
 

@@ -54,7 +54,7 @@ bool AllocationCounter::countsMalloc()
 
 #ifdef BULLETFEM_COUNTS_MALLOC
 
-// glibc's own allocator under the names that it keeps for replacements. The library's operator new calls our malloc.
+// glibc's allocator under the names that it keeps for replacements. The library's operator new calls this malloc.
 extern "C"
 {
     void* __libc_malloc(std::size_t size);
@@ -104,7 +104,8 @@ extern "C"
 
 #else
 
-// All forms: a sanitizer has its own of each, and takes offence at memory of one kind released as another.
+// All forms are replaced: a sanitizer has its own version of each, and reports memory allocated by one form and
+// released by another.
 namespace
 {
 

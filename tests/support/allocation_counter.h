@@ -5,9 +5,9 @@
 namespace bullet_fem
 {
 
-/// Counts heap allocations of the whole program from its construction on: operator new, and malloc, calloc, realloc and
-/// the aligned ones under whatever calls them. Under a sanitizer, which owns malloc, and without glibc, operator new
-/// alone. Linking the library that holds it replaces those functions. Thread-safe.
+/// Counts heap allocations of the whole program since its construction: operator new, malloc, calloc, realloc and the
+/// aligned ones, by any caller. Under a sanitizer, which owns malloc, and without glibc, it counts operator new only.
+/// Linking this library replaces those functions. Thread-safe.
 class AllocationCounter
 {
 public:

@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-// The compiler may drop a pair of allocation and release unless it must show the pointer to somebody.
+// The compiler may remove a pair of allocation and release unless the pointer escapes.
 void* volatile seen;
 
 TEST(AllocationCounter, CountsEveryFormOfNew)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What tests ask Highway's library for, where BULLETFEM_VECTORS does without it: kernels are there for one target
-// alone.
+// The functions of Highway's library that tests need when BULLETFEM_VECTORS is off: kernels exist for one target only.
 #include <hwy/targets.h>
 
 namespace hwy

@@ -18,8 +18,8 @@
 namespace bullet_fem
 {
 
-/// How many steps a test of threads takes that takes so many usually. Under ThreadSanitizer a step takes tens of times
-/// as long, and what threads do is alike in all of them.
+/// The number of steps for a threaded test that usually makes `usually`. Under ThreadSanitizer a step takes tens of
+/// times as long, and threads do equal work in all steps.
 constexpr int stepsOnThreads(int usually)
 {
     constexpr int kMaxUnderThreadSanitizer = 12;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Text that is not JSON is refused with the place, what was expected there, and what is there.
+//
+// Text that is not JSON is rejected with the position, the expected and the found text.
 #include "tools/scene/json_syntax.h"
 
 #include <gtest/gtest.h>
@@ -149,7 +150,7 @@ TEST(JsonSyntax, LimitsTheDepth)
         }
 }
 
-// The checker refuses all that the library refuses, or the library's words come through.
+// The checker rejects all that the library rejects; otherwise the library's message would appear.
 TEST(JsonSyntax, AgreesWithTheLibraryOnDamagedScenes)
 {
     static const std::string pool = "{}[]\",:0123456789.-+eE \n\\/*truefalsn\x7f\xff\xc3\xed";
@@ -169,7 +170,7 @@ TEST(JsonSyntax, AgreesWithTheLibraryOnDamagedScenes)
         catch (const JsonSyntaxError& error)
         {
             why = error.message();
-            if (why.find("twice") != std::string::npos) continue;  // which the library lets pass
+            if (why.find("twice") != std::string::npos) continue;  // the library accepts duplicate members
         }
         EXPECT_EQ(nlohmann::json::accept(text, true), why.empty()) << why << '\n' << text;
     }

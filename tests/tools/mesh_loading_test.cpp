@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Files become bodies in the background.
+//
+// Mesh files are loaded into bodies by a background thread.
 #include "tools/scene/mesh_loading.h"
 
 #include <gmock/gmock.h>

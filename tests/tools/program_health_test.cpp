@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// bulletfem simulate tells how a run went, also by its exit code.
+//
+// bulletfem simulate reports faults of a run in its output and exit code.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A metre of a material on the ground, of which rho g H is `ratio` times E.
+/// A cube of 1 m on the ground, of a material with rho g H = `ratio` E.
 std::string cube(double ratio, const std::string& rest = "")
 {
     return R"({ "seconds": 1.5, "softBodies": [{ "name": "cube", "mesh": { "box": [1, 1, 1], "tets": 600 },
@@ -43,7 +44,7 @@ protected:
     TemporaryFolder m_folder;
 };
 
-// Hooke's law lets what is crushed by its own weight turn inside out, and rest so.
+// Under Hooke's law a cube crushed by its own weight inverts, and stays at rest so.
 TEST_F(ProgramHealth, InvertedBodyIsReported)
 {
     const ProgramRun run = simulate(cube(2), "--json");
@@ -80,7 +81,7 @@ TEST_F(ProgramHealth, StandingBodyIsHealthy)
     EXPECT_TRUE(json::parse(run.m_output)["faults"].empty());
 }
 
-// A ball that starts in a cube does not come out by itself.
+// A ball that starts inside a cube does not come out by itself.
 TEST_F(ProgramHealth, BodyInsideAnotherIsReported)
 {
     const std::string scene = R"({ "seconds": 0.2, "gravity": [0, 0, 0], "softBodies": [{ "name": "cube",
@@ -96,7 +97,7 @@ TEST_F(ProgramHealth, BodyInsideAnotherIsReported)
     EXPECT_NEAR(fault["share"].get<double>() * std::cbrt(4. / 3 * 3.14159 * 1e-3), fault["depth"].get<double>(), 0.01);
 }
 
-// 60 steps are simulated between two frames; the flag stands in the first few alone.
+// 60 steps are simulated between two frames; the flag is set in the first few only.
 TEST_F(ProgramHealth, FlagBetweenTwoFramesIsReported)
 {
     const std::string sunken = R"({ "seconds": 1, "framesPerSecond": 1, "softBodies": [{ "name": "sunken",

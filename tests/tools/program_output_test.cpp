@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Every file that the program bulletfem writes, where it cannot be written.
+//
+// Each output file of bulletfem, on a path or disk that cannot be written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ using testing::Not;
 struct OutputCase
 {
     const char* m_command;  // without the output
-    const char* m_file;     // in the folder of the output
+    const char* m_file;     // in the output folder
 };
 
 void PrintTo(const OutputCase& output, std::ostream* out)
@@ -45,7 +46,7 @@ protected:
 
     bool isScene() const { return std::string(GetParam().m_command).find("simulate") == 0; }
 
-    /// Runs the command with its output in a folder; `before` are commands of the shell.
+    /// Runs the command with its output in a folder, after the shell commands `before`.
     ProgramRun run(const std::string& folder, const std::string& before = "", const char* seconds = "0.05") const
     {
         std::string line = "cd '" + m_samples.path("") + "'; " + before + " '" BULLETFEM_PROGRAM "' ";
@@ -61,8 +62,7 @@ protected:
     const std::string m_file = m_folder.path(GetParam().m_file);
 };
 
-// All of the program's files are limited to no bytes, which acts like a disk that is full from the start. By default
-// the limit's signal ends a program without a word.
+// A file size limit of zero acts as a full disk. By default the limit's signal ends a program without a message.
 TEST_P(ProgramOutput, LeavesNothingOnAFullDisk)
 {
     const ProgramRun full = run(m_folder.path(""), "ulimit -f 0;");
@@ -103,7 +103,7 @@ TEST_P(ProgramOutput, LeavesNoPartWhenInterrupted)
     EXPECT_THAT(m_folder.names(), Each(Not(HasSubstr(".part"))));
 }
 
-// More than a day of a scene: nobody waits for that to hear that its film cannot be written.
+// More than a day of simulated time: an output that cannot be written is reported before.
 TEST_P(ProgramOutput, IsTriedBeforeTheWork)
 {
     std::filesystem::create_directory(m_file);

@@ -11,14 +11,14 @@
 namespace bullet_fem
 {
 
-/// What a program left behind.
+/// The result of a program.
 struct ProgramRun
 {
     int m_code = -1;       ///< exit code; -1 if it did not exit by itself
-    std::string m_output;  ///< what it wrote to its standard output, and to the other one
+    std::string m_output;  ///< standard output and standard error
 };
 
-/// Runs a shell's command line.
+/// Runs a shell command line.
 inline ProgramRun runShell(const std::string& line)
 {
     FILE* pipe = popen((line + " 2>&1").c_str(), "r");

@@ -51,7 +51,7 @@ TEST_P(ProgramScene, GivesSeriesForParaViewAndAFilmForTheWeb)
     EXPECT_THAT(file("surfaces.pvd"), HasSubstr("surfaces_000006.vtu"));
     const std::string film = file("run.glb");
     EXPECT_EQ(film.substr(0, 4), "glTF");
-    EXPECT_NE(film.find("\"targets\""), std::string::npos) << "of morphing";
+    EXPECT_NE(film.find("\"targets\""), std::string::npos) << "morph targets";
 }
 
 TEST_P(ProgramScene, GivesPictures)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// bulletfem simulate tells the readings of a scene's sensors.
+//
+// bulletfem simulate prints the readings of a scene's sensors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ namespace
 using nlohmann::json;
 using testing::HasSubstr;
 
-// A column of 250 kg that hangs on pins, and another that hangs on a static box.
+// Two columns of 250 kg: one hangs from pins, the other from a static box.
 std::string hangingScene(const std::string& sensors)
 {
     return R"({ "softBodies": [

@@ -29,7 +29,7 @@ protected:
     {
         return std::filesystem::exists(std::filesystem::symlink_status(m_folder.path(name)));
     }
-    /// Must be well, and returns what --json tells.
+    /// Runs a command that must succeed, and returns its --json figures.
     json figures(const std::string& arguments) const
     {
         const ProgramRun run = bulletfem(arguments + " --json");
@@ -302,7 +302,7 @@ TEST_F(Program, BakesPaintedSurfaces)
     refused("bake " + path("cube.off") + " -o " + path("a.bfem") + " --region 1:foam", 1, "is not painted");
 }
 
-// What ParaView shows is what the mesh's file says.
+// The file for ParaView has the regions of the mesh file.
 TEST_F(Program, WritesTheRegionOfEveryElement)
 {
     m_folder.write("regions.json", R"({ "seconds": 0.02, "softBodies": [{ "name": "a",
@@ -340,7 +340,7 @@ TEST_F(Program, TellsHowFarARunAndItsPicturesAre)
     EXPECT_THAT(bulletfem(simulate + " --quiet").m_output, testing::Not(HasSubstr("%")));
 }
 
-// A bar that a force pulls with twice what it bears.
+// A bar under twice the force that it can bear.
 TEST_F(Program, TellsHowManyPartsABodyHasSplitInto)
 {
     const std::string scene = R"({ "gravity": [0, 0, 0], "softBodies": [{ "name": "bar",

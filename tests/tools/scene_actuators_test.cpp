@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Chambers, cables, fibres and expansions of scenes.
+//
+// Chambers, cables, fibres and expansions in scenes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ Reports reportsOf(SceneRun& run)
     return reports;
 }
 
-// A weightless body of this mesh, with these actuators.
+// A body of this mesh with these actuators, without gravity.
 std::string floating(const std::string& mesh, const std::string& actuators, const std::string& more = "")
 {
     return R"({ "gravity": [0, 0, 0], "softBodies": [{ "name": "pad", "mesh": )" + mesh +
@@ -79,7 +80,7 @@ TEST(SceneActuators, AreReadAsTheyAreWritten)
     EXPECT_EQ(scene.m_softBodies[0].m_mesh.m_holes[0].m_low.z, 1);
 }
 
-// Pumped up, and sealed: the gas stays where the pressure would be gone.
+// The chamber is inflated, then sealed: the gas stays after the prescribed pressure ends.
 TEST(SceneActuators, AChamberIsPumpedUpAndSealed)
 {
     SceneRun run(floating(kHollow, R"({ "kind": "chamber", "body": "pad", "pressure": [[0, 0], [1, 8000], [2, 0]],

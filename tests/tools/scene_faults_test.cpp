@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Which bodies are inside out or inside another.
+//
+// Detection of inverted bodies and of bodies inside others.
 #include "tools/scene/scene_faults.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ std::vector<SceneFault> faultsOf(SceneRun& run)
     return findFaults(run.m_world, SceneFrames(run.m_world));
 }
 
-/// A cube of a metre at x, y with pins, and another body of 20 cm that does not move either.
+/// A cube of 1 m at x, y with pins, and another body of 20 cm, which does not move either.
 SceneRun cubeAnd(double x, double y, const std::string& other, const std::string& pins = "")
 {
     char place[64];
@@ -58,14 +59,14 @@ struct FaultShape
 {
     const char* m_name;
     const char* m_json;
-    double m_depth;  // of the cube's middle; of a small ball's point on the way to a corner [m]
+    double m_depth;  // of the cube's centre; of a small ball's point towards a corner [m]
 };
 
 class SceneFaultsOfShapes : public testing::TestWithParam<FaultShape>
 {
 };
 
-// All of them have their middle at the origin, as the cube has.
+// All shapes have their centre at the origin, as the cube has.
 TEST_P(SceneFaultsOfShapes, AreFoundAroundTheOther)
 {
     SceneRun run =
@@ -126,7 +127,7 @@ TEST(SceneFaults, CountInvertedElements)
     EXPECT_THAT(findFaults(run.m_world, frames), IsEmpty());
     btSoftBody& body = run.m_world.soft(0);
     const btVector3 way(0, 3, 0);
-    body.m_nodes[0].m_x += way;  // far through all elements that it has, to the other side
+    body.m_nodes[0].m_x += way;  // far through all its elements to the other side
     int expected = 0;
     for (int e = 0; e < body.m_tetras.size(); ++e)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Flags that were ever raised, with their times.
+//
+// The history of flags, with their times.
 #include "tools/scene/scene_flags.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +20,7 @@ namespace
 
 using testing::HasSubstr;
 
-/// A cube that starts 5 cm in the ground, which the solver takes back, and another one far from it.
+/// A cube that starts 5 cm in the ground, which position correction resolves, and another one far from it.
 const char* const kSunken = R"({ "step": 0.01, "softBodies": [
     { "name": "free", "mesh": { "box": [0.4, 0.4, 0.4], "tets": 100 }, "material": "rubber", "position": [5, 3, 0] },
     { "name": "sunken", "mesh": { "box": [1, 1, 1], "tets": 100 }, "material": "rubber", "position": [0, 0.45, 0] }],
@@ -41,7 +42,7 @@ TEST(SceneFlags, TellTheFirstAndTheLastStepWithAFlag)
         last = run.m_world.time();
     }
     ASSERT_GT(steps, 1);
-    EXPECT_LT(last, 0.45) << "it is raised early alone";
+    EXPECT_LT(last, 0.45) << "it is raised only early";
     const std::vector<SceneFlag> all = flags.all();
     ASSERT_EQ(all.size(), 1u) << "of one body";
     EXPECT_EQ(all[0].m_body, "sunken");

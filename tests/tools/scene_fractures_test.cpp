@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bodies of scenes that split.
+//
+// Fracture of bodies in scenes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace
 
 constexpr double kPullOfAll = 100;  // [N]; on a section of .04 m2
 
-// A bar of 1 x .2 x .2 m and 40 kg, held at its left end, whose mass is pulled to the right.
+// A bar of 1 x .2 x .2 m and 40 kg, clamped at its left end, under a force to the right on all its mass.
 std::string pulledBar(const std::string& fracture, const std::string& more = "")
 {
     return R"({ "gravity": [0, 0, 0], "step": 0.01, "softBodies": [{ "name": "bar",
@@ -35,7 +36,7 @@ std::string strengthOf(double tension)
     return R"(, "fracture": { "tension": )" + std::to_string(tension) + " }";
 }
 
-// Of the nodes that start to the right of the middle: copies of nodes are at the crack.
+// Speed of the nodes that start to the right of the middle: the crack has copies of nodes.
 double speedOfRight(const SceneRun& run)
 {
     double momentum = 0, mass = 0;
@@ -72,7 +73,7 @@ TEST(SceneFractures, AreReadAsTheyAreWritten)
     EXPECT_TRUE(usual.m_partsTouch);
 }
 
-// The clamp bears F / A but for the pinned nodes' share; the swing of a sudden load at most twice that.
+// The clamp bears F / A minus the pinned nodes' share; a suddenly applied load at most doubles that.
 TEST(SceneFractures, ABarHoldsAtMoreThanItBearsAndSplitsAtLess)
 {
     SceneRun holds(pulledBar(strengthOf(2.5 * kPullOfAll / 0.04))),
@@ -88,10 +89,10 @@ TEST(SceneFractures, ABarHoldsAtMoreThanItBearsAndSplitsAtLess)
     EXPECT_GE(what.m_parts, 2);
     EXPECT_EQ(nodes + int(what.m_copyOf.size()), splits.nodeCount(0));
     for (std::size_t n = 0; n < what.m_copyOf.size(); ++n) EXPECT_LT(what.m_copyOf[n], nodes + int(n));
-    EXPECT_EQ(btFemFracture::splits(splits.m_world.fem()).size(), 0) << "they are taken";
+    EXPECT_EQ(btFemFracture::splits(splits.m_world.fem()).size(), 0) << "the world has read them";
 }
 
-// What has broken off is pulled by its share of the force, copies of nodes included.
+// The broken-off part is accelerated by its share of the force, which includes copies of nodes.
 TEST(SceneFractures, ForcesPullAtCopiesOfNodesToo)
 {
     SceneRun run(pulledBar(strengthOf(0.5 * kPullOfAll / 0.04)));
@@ -102,7 +103,7 @@ TEST(SceneFractures, ForcesPullAtCopiesOfNodesToo)
     EXPECT_NEAR((speedOfRight(run.until(2)) - before) / 0.5, acceleration, 0.002 * acceleration);
 }
 
-// A force at some nodes stays at them and at their copies: a stub of the bar that bears it splits along its length.
+// A force on some nodes stays on them and their copies: a stub of the bar splits along its length under it.
 TEST(SceneFractures, ForceKeepsItsSizeIfItsNodesSplit)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "softBodies": [{ "name": "bar",
@@ -127,7 +128,8 @@ TEST(SceneFractures, PartsCollideUnlessDisabled)
     EXPECT_FALSE(touches(apart));
 }
 
-// Writers and pictures: elements with their present nodes, the sides of cracks, and displacements from where all began.
+// Writers and pictures show elements with their present nodes, crack faces, and displacements from the initial
+// positions.
 TEST(SceneFractures, FramesShowSplitElementsAndDisplacements)
 {
     SceneRun run(pulledBar(strengthOf(1250)));
@@ -136,7 +138,7 @@ TEST(SceneFractures, FramesShowSplitElementsAndDisplacements)
     const std::size_t triangles = frames.surfaces()[0].m_triangles.size(), tets = frames.volumes()[0].m_tets.size();
     run.until(1.2);
     frames.update();
-    SceneFrames later(run.m_world);  // of a scene in motion
+    SceneFrames later(run.m_world);  // of a moving scene
     const std::vector<Vec3> restOfLater = later.volumes()[0].m_positions;
     run.until(1.5);
     frames.update();
@@ -166,7 +168,7 @@ TEST(SceneFractures, FramesShowSplitElementsAndDisplacements)
     }
 }
 
-// What has split cannot be whole again: the way back begins where it split last.
+// A split cannot be undone: the history begins at the last one.
 TEST(SceneFractures, HistoryRestartsAtASplit)
 {
     SceneRun run(pulledBar(strengthOf(1250)));
@@ -194,7 +196,7 @@ TEST(SceneFractures, FragmentsSplitToo)
     EXPECT_GT(run.until(1).m_world.fractures().count(), 0);
 }
 
-// Of a baked file the program does not know before whether something is embedded.
+// For a baked file the program does not know in advance whether a surface is embedded.
 TEST(SceneFractures, BakedBodySplitsButBakedSurfaceIsRejected)
 {
     const TemporaryFolder folder;

@@ -23,7 +23,7 @@ namespace
 
 const double kHalfTurn = std::acos(-1.);
 
-/// Every edge is there once in each direction: no hole, and one side is outside everywhere.
+/// True if each edge occurs once in each direction: closed and consistently oriented.
 bool isClosed(const std::vector<Triangle>& triangles)
 {
     std::map<std::pair<int, int>, int> edges;
@@ -37,8 +37,8 @@ bool isClosed(const std::vector<Triangle>& triangles)
     return true;
 }
 
-// A polygon of 32 corners has this share of the circle around it. Round ends are polyhedra inside the ball, of 32 by
-// some 16 faces: a share that is at most 2 % smaller still.
+// Area of a regular polygon of 32 corners over that of its circle. Round ends are polyhedra of 32 by about 16 faces
+// inside the ball: their share is at most 2 % smaller.
 const double kPolygon = 32 / (2 * kHalfTurn) * std::sin(2 * kHalfTurn / 32);
 
 struct ShapeVolume
@@ -67,7 +67,7 @@ TEST_P(RigidSurface, IsClosedOutwardAndFollowsTheBody)
                                               ".");
     SceneWorld world(scene);
     SceneFrames frames(world);
-    ASSERT_EQ(frames.surfaces().size(), 1u) << "of a plane there is none";
+    ASSERT_EQ(frames.surfaces().size(), 1u) << "a plane has none";
     EXPECT_EQ(frames.bodyOf(0), 1);
     const std::vector<Triangle> triangles = frames.surfaces()[0].m_triangles;
     EXPECT_TRUE(isClosed(triangles));
@@ -153,9 +153,9 @@ TEST(SceneFrames, ContactForcesSumToTheWeightAndStressToTheLoad)
     for (const Vec3& force : frame.m_contactForce) sum += force;
     const double weight = 200 * 9.81;
     EXPECT_NEAR(norm(sum - Vec3{0, weight, 0}), 0, 1e-3 * weight);
-    double load = 0;  // mean of sigma_yy by volume: - rho g H / 2 in a column that stands free
+    double load = 0;  // volume-weighted mean of sigma_yy: - rho g H / 2 in a free-standing column
     for (const Stress& stress : frame.m_tetStress) load += stress.yy / double(frame.m_tetStress.size());
-    // Elements of a cell are not all of one size, but of one stress nearly.
+    // Elements of a cell differ in size, but hardly in stress.
     EXPECT_NEAR(load, -1000 * 9.81 * 0.5, 0.02 * 1000 * 9.81 * 0.5);
 }
 
@@ -197,7 +197,7 @@ std::vector<double> cellDataOf(const std::string& xml, const std::string& name)
     return {std::istream_iterator<double>(stream), {}};
 }
 
-// The lower half, label 1, yields under the weight of the upper one, label -2, a part of which has fibres.
+// The lower half, label 1, yields under the weight of the upper one, label -2, part of which has fibres.
 TEST(SceneFrames, ParaViewsFileHasRegionsPlasticStrainAndActivation)
 {
     const TemporaryFolder folder;
@@ -231,7 +231,7 @@ TEST(SceneFrames, ParaViewsFileHasRegionsPlasticStrainAndActivation)
     EXPECT_EQ(active, 10) << "two cells of five tetrahedra";
 }
 
-// Between two steps soft and rigid bodies are drawn for one moment: the same share of the way back.
+// Between two steps soft and rigid bodies are interpolated to one common time.
 TEST(SceneFrames, SoftAndRigidBodiesFlyTogetherBetweenSteps)
 {
     const SceneDescription scene = parseScene(R"({ "gravity": [0, 0, 0], "step": 0.02,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Back in time, and on from there.
+//
+// Going back in time, and continuing from there.
 #include "tools/scene/scene_history.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +19,7 @@ const char* const kFallingBall = R"({ "step": 0.01, "softBodies": [
     "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
                     { "name": "ball", "shape": { "sphere": 0.1 }, "mass": 2, "position": [0.03, 0.62, 0], "velocity": [0.6, 0, 0] }] })";
 
-/// Where all is.
+/// Positions of all nodes and rigid bodies.
 std::vector<Vec3> placesIn(SceneRun& run)
 {
     std::vector<Vec3> places;
@@ -55,7 +56,7 @@ protected:
 
     SceneRun m_run{kFallingBall};
     std::unique_ptr<SceneHistory> m_history;
-    std::vector<std::vector<Vec3>> m_seen = {placesIn(m_run)};  // after so many steps
+    std::vector<std::vector<Vec3>> m_seen = {placesIn(m_run)};  // by number of steps
 };
 
 TEST_F(SceneHistoryTest, LeadsBackAndForthToTheBit)
@@ -85,7 +86,7 @@ TEST_F(SceneHistoryTest, LeadsBackAndForthToTheBit)
     EXPECT_FALSE(m_history->later());
 }
 
-// In the midst of an impact: the ball is on the cube, the cube on the ground.
+// During an impact: the ball is on the cube, the cube on the ground.
 TEST_F(SceneHistoryTest, RunsOnAsItDidBefore)
 {
     begin(10, 1u << 28u);
@@ -94,7 +95,7 @@ TEST_F(SceneHistoryTest, RunsOnAsItDidBefore)
     ASSERT_EQ(m_run.m_world.steps(), 30);
     const std::vector<std::vector<Vec3>> before = m_seen;
     steps(20);
-    EXPECT_LT(farthest(m_seen[50], before[50]), 2e-4) << "contacts of rigid bodies begin anew";
+    EXPECT_LT(farthest(m_seen[50], before[50]), 2e-4) << "contacts of rigid bodies restart without warm start";
     EXPECT_GT(farthest(m_seen[30], m_seen[50]), 2e-2) << "it moves meanwhile";
 }
 
@@ -116,7 +117,7 @@ TEST_F(SceneHistoryTest, KeepsItsMemoryInBounds)
 {
     begin(1, 1u << 28u);
     steps(4);
-    const std::size_t bound = m_history->bytes() + 4096;  // of five states, and what contacts add to them
+    const std::size_t bound = m_history->bytes() + 4096;  // five states, with contacts
     begin(1, bound);
     steps(30);
     EXPECT_LE(m_history->bytes(), bound);
@@ -158,7 +159,7 @@ TEST_F(SceneHistoryTest, RestartsIfBodiesAreAdded)
     EXPECT_NEAR(m_run.m_world.rigid(2).getWorldTransform().getOrigin().y(), 3, 1e-6);
 }
 
-// A muscle that is drawn at .1 s: what acts is that of the time, also after the clock was set back.
+// A muscle contracts at .1 s: its activation follows the time, also after going back.
 TEST(SceneHistoryActuators, ActuatorsHaveTheValuesOfTheTime)
 {
     SceneRun run(R"({ "step": 0.01, "gravity": [0, 0, 0], "softBodies": [{ "name": "bar",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What moves in scenes by a speed over time: bodies without mass, and motors. And soft cylinders.
+//
+// Prescribed motion in scenes: bodies without mass with a speed over time, and motors; also soft cylinders.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +18,8 @@ Vec3 placeOf(const SceneRun& run, int rigid)
     return vec3(run.m_world.rigid(rigid).getWorldTransform().getOrigin());
 }
 
-// Of straight lines between speeds the way is the area below: 1/2 0.6 1 + 0.6 0.5 along x, 2 0.3 against z. And a jump
-// to 3 rad/s for 0.4 s turns by 1.2.
+// The displacement is the integral of the piecewise linear speed: 1/2 0.6 1 + 0.6 0.5 along x, 2 0.3 against z. A jump
+// to 3 rad/s for 0.4 s rotates by 1.2 rad.
 TEST(SceneMotion, ABodyWithoutMassFollowsItsSpeedOverTime)
 {
     SceneRun run(R"({ "step": 0.01, "rigidBodies": [{ "name": "plate", "shape": { "box": [1, 1, 1] },
@@ -34,7 +35,7 @@ TEST(SceneMotion, ABodyWithoutMassFollowsItsSpeedOverTime)
     EXPECT_NEAR(run.m_world.rigid(0).getOrientation().getAxis().y(), 1, 1e-4);
 }
 
-// It rests until it sleeps, and what lies on it, or is tied to it, sleeps, too; then it goes.
+// The plate rests until it sleeps with all bodies on it or tied to it; then it moves.
 TEST(SceneMotion, SleepingBodiesMoveWithTheirPlate)
 {
     SceneRun run(R"({ "softBodies": [
@@ -44,7 +45,7 @@ TEST(SceneMotion, SleepingBodiesMoveWithTheirPlate)
         "velocity": [[6, [0, 0, 0]], [6, [0, 0.5, 0]], [7, [0, 0.5, 0]], [7, [0, 0, 0]]] }],
       "constraints": [{ "kind": "anchor", "soft": "hangs", "rigid": "plate", "nodes": { "low": [-1, -0.2, -1], "high": [1, 0, 1] } }] })");
     run.until(5.9);
-    EXPECT_FALSE(run.m_world.soft(0).isActive()) << "else this looks at nothing";
+    EXPECT_FALSE(run.m_world.soft(0).isActive()) << "otherwise the test is empty";
     EXPECT_FALSE(run.m_world.soft(1).isActive());
     const Vec3 lay = run.node(0, 0), hung = run.node(1, 0);
     run.until(8);
@@ -53,7 +54,7 @@ TEST(SceneMotion, SleepingBodiesMoveWithTheirPlate)
     EXPECT_NEAR(run.node(1, 0).y - hung.y, 0.5, 2e-3);
 }
 
-// Across gravity, a motor's force F moves a mass m by F t^2 / (2 m), and at most as fast as its speed.
+// Without gravity along the axis a motor's force F moves a mass m by F t^2 / (2 m), up to its maximum speed.
 TEST(SceneMotion, ASliderGoesByItsMotor)
 {
     const std::string scene = R"({ "step": 0.01, "rigidBodies": [
@@ -76,7 +77,7 @@ TEST(SceneMotion, ASliderGoesByItsMotor)
     }
 }
 
-// The second slider rides on the first one's body; after a rest in which all sleeps, the motors wake it.
+// The second slider is mounted on the first one's body; after a rest in which all bodies sleep, the motors wake them.
 TEST(SceneMotion, MotorsFollowTheirSpeedsAndWakeSleepingBodies)
 {
     SceneRun run(R"({ "step": 0.01, "gravity": [0, 0, 0], "rigidBodies": [
@@ -88,7 +89,7 @@ TEST(SceneMotion, MotorsFollowTheirSpeedsAndWakeSleepingBodies)
         { "kind": "slider", "body": "cart", "to": "lift", "pivot": [0, 0.2, 0], "axis": [1, 0, 0], "speed": [[4, 0], [4, 0.2]], "force": 500 },
         { "kind": "hinge", "body": "wheel", "pivot": [4, 0, 0], "axis": [0, 0, 1], "speed": [[4, 0], [5, -3]], "torque": 50 }] })");
     run.until(3.9);
-    for (const int k : {0, 1, 2}) EXPECT_FALSE(run.m_world.rigid(k).isActive()) << "else this looks at nothing";
+    for (const int k : {0, 1, 2}) EXPECT_FALSE(run.m_world.rigid(k).isActive()) << "otherwise the test is empty";
     run.until(6);
     EXPECT_NEAR(placeOf(run, 0).y, 0.2 + 0.4, 2e-3);
     EXPECT_NEAR(placeOf(run, 1).y, 0.2 + 0.2 + 0.4, 2e-3) << "rides on the lift";
@@ -96,7 +97,7 @@ TEST(SceneMotion, MotorsFollowTheirSpeedsAndWakeSleepingBodies)
     EXPECT_NEAR(run.m_world.rigid(2).getAngularVelocity().z(), -3, 1e-3);
 }
 
-// A weight on a spring hangs m g / k below the target, which moves; where the spring is let go it falls.
+// A weight on a spring hangs m g / k below the moving target; after the release it falls.
 TEST(SceneMotion, ASpringHoldsMovesAndLetsGo)
 {
     SceneRun run(R"({ "step": 0.01, "softBodies": [
@@ -115,7 +116,7 @@ TEST(SceneMotion, ASpringHoldsMovesAndLetsGo)
     EXPECT_NEAR(run.momentum(0).y - momentum.y, -mass * 9.81 * 0.5, 0.01 * mass * 9.81 * 0.5);
 }
 
-// With no more than its force, it does not lift what is heavier.
+// With a limited force it does not lift a heavier weight.
 TEST(SceneMotion, ASpringPullsNoMoreThanItsForce)
 {
     const auto heightAfter = [](const std::string& force)
@@ -132,7 +133,7 @@ TEST(SceneMotion, ASpringPullsNoMoreThanItsForce)
     EXPECT_GT(heightAfter("60"), 0.4);
 }
 
-// Flat faces lie on what is round: its volume is that of a prism over a polygon of 4 n corners, n cells across.
+// The curved surface is faceted: the volume is that of a prism over a polygon of 4 n corners, n cells across.
 TEST(SceneMotion, ACylinderStandsOnY)
 {
     const auto scene = [](const std::string& size)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Scenes that have been damaged at random are read, or refused with a message; nothing else happens.
+//
+// Randomly damaged scenes are read, or rejected with a message.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +25,7 @@ protected:
 
     int below(std::size_t count) { return static_cast<int>(m_random() % count); }
 
-    /// Reads it, and returns whether it is a scene.
+    /// Reads the text, and returns whether it is a valid scene.
     bool isScene(const std::string& text)
     {
         try
@@ -81,7 +82,7 @@ TEST_F(SceneMutation, MutatedBytesAreReadOrRejected)
     EXPECT_LT(scenes, 9000);
 }
 
-/// Values that are JSON, but not what is expected where they stand.
+/// JSON values that are wrong at any place.
 const std::array<const char*, 24> kValues = {"null",
                                              "true",
                                              "0",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Pictures of scenes: what is drawn is what the formulas say.
+//
+// Pictures of scenes: colours and shapes agree with formulas.
 #include "tools/scene/scene_painter.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ namespace
 
 constexpr PictureSize kSize{640, 360};
 
-/// A run with what is seen of it.
+/// A run with its picture.
 struct PaintedRun
 {
     PaintedRun(const std::string& json, double seconds) : m_run(json), m_frames(m_run.m_world)
@@ -59,8 +60,8 @@ protected:
     std::unique_ptr<OffscreenRenderer> m_renderer;
 };
 
-/// Where on the colour map a pixel is, in [0, 1]: light and shadow change brightness, so that shares of red, green and
-/// blue are compared.
+/// Position of a pixel's colour on the colour map, in [0, 1]: light and shadow change brightness, so that proportions
+/// of red, green and blue are compared.
 double heat(const std::array<int, 3>& pixel)
 {
     double best = 0, least = 1e30;
@@ -91,7 +92,7 @@ const char* const kBeam =
     "pins": [{ "low": [-0.51, -1, -1], "high": [-0.49, 1, 1] }] }],
     "camera": { "direction": [0, 0.3, 1] }, "pictures": { "width": 640, "height": 360, "stress": true } })";
 
-// Bending moment, and with it stress at the upper edge, falls from the clamp to the tip with the square of the
+// The bending moment, and so the stress at the upper edge, falls from the clamp to the tip with the square of the
 // distance.
 TEST_F(ScenePicture, ABeamUnderItsWeightIsHottestAtTheClamp)
 {
@@ -131,10 +132,9 @@ double legendEnd(const PictureColourScale& scale)
     return 1000 * std::stod(label);
 }
 
-// A bar of 5 m x 0.1 m x 0.1 m, pulled at its end: F / A everywhere but near the end, where equal parts of the force on
-// all nodes are more of it at the rim than the rim's share of the area. By Saint-Venant's principle that is gone a
-// width away, which is 2 % of the length: of so many nodes the colour scale takes no notice. Poisson's ratio is 0, or
-// the clamp were such an end, too.
+// A bar of 5 m x 0.1 m x 0.1 m with a force at its end: the stress is F / A except near the end, where equal nodal
+// forces overload the rim. By Saint-Venant's principle that decays within one width, 2 % of the length: the colour
+// scale ignores so few nodes. Poisson's ratio is 0, because the clamp would be such an end otherwise.
 TEST(SceneLegend, ShowsForceOverAreaOfABarInTension)
 {
     PaintedRun bar(
@@ -153,7 +153,7 @@ TEST(SceneLegend, ShowsForceOverAreaOfABarInTension)
     EXPECT_GT(stress.back(), 1.1 * expected) << "the rim of the end, which the scale leaves out";
 }
 
-// A bar that splits under a force beyond its strength: films draw the sides of its cracks, and earlier pictures do not.
+// A bar that splits under a force beyond its strength: films show the crack faces, and earlier pictures do not.
 TEST(SceneCracks, AreDrawnFromTheirTimeOn)
 {
     PaintedRun bar(

@@ -299,7 +299,7 @@ TEST_F(SceneReader, MakesIdenticallyRotatedGridCopiesInEveryRun)
     const SceneDescription scene = parse(otherScene()), again = parse(otherScene());
     ASSERT_EQ(scene.m_softBodies.size(), 11u);
     ASSERT_EQ(scene.m_rigidBodies.size(), 5u);
-    Vec3 ways;  // that the copies' y axes point
+    Vec3 ways;  // sum of the copies' y axes
     for (int k = 0; k < 6; ++k)
     {
         const SceneSoftBody &copy = scene.m_softBodies[5 + k], &same = again.m_softBodies[5 + k];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Every kind of bad scene gets a message with the path in the document, what is there, and what is expected.
+//
+// Each kind of bad scene gives a message with the path in the document, the found and the expected value.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,14 +17,14 @@ namespace
 
 using nlohmann::json;
 
-/// `m_value`, as JSON, is put at `m_at` in one of the sample scenes; "" takes the place out.
+/// `m_value`, as JSON, replaces `m_at` in one of the sample scenes; "" removes it.
 struct BadValue
 {
     const char* m_test;
     bool m_full;  ///< in fullScene, else in otherScene
     const char* m_at;
     const char* m_value;
-    const char* m_message;  ///< the whole
+    const char* m_message;  ///< the whole message
 };
 
 void PrintTo(const BadValue& bad, std::ostream* out)

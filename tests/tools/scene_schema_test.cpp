@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// docs/scene.schema.json and the reader agree: on the members of every object, and on thousands of scenes that differ
-// from good ones in one place.
+//
+// docs/scene.schema.json and the reader agree: on the members of each object, and on thousands of scenes that differ
+// from valid ones in one place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ json schemaDocument()
     return json::parse(file);
 }
 
-/// An object of a sample scene, and what the schema says of it.
+/// An object of a sample scene, and its schema.
 struct SchemaPlace
 {
     bool m_full;  ///< in fullScene, else in otherScene
@@ -40,7 +41,7 @@ struct SchemaPlace
     const char* m_inSchema;
 };
 
-// All objects with members of their own: the first test says so.
+// All objects with members of their own; the first test checks that the list is complete.
 const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/solver", "/properties/solver"},
                                 {true, "/materials/gum", "/definitions/material"},
@@ -104,7 +105,7 @@ protected:
 
     json sample(bool full) const { return json::parse(full ? fullScene() : otherScene()); }
 
-    /// What the reader says; nothing if it takes the scene.
+    /// The reader's error message; empty if it accepts the scene.
     std::string refusal(const json& scene) const
     {
         try
@@ -122,14 +123,15 @@ protected:
         return valijson::Validator().validate(m_schema, NlohmannJsonAdapter(scene), nullptr);
     }
 
-    /// The schema and the reader are of one mind, or the reader refuses what no schema can know.
+    /// Expects that schema and reader agree, or that the reader rejects a scene for a reason that a schema cannot
+    /// express.
     void compare(const json& scene, const std::string& what)
     {
         const std::string said = refusal(scene);
         const bool valid = isValid(scene);
         ++(valid ? m_valid : m_invalid);
         if (valid == said.empty()) return;
-        // Of these, what a material is `like` may have the yield stress.
+        // Reasons that a schema cannot express. A `like` material may supply the yield stress.
         static const char* const kMeanings[] = {"a name that no other body has",
                                                 "must be the name of a",
                                                 "which is no file",
@@ -139,9 +141,9 @@ protected:
                                                 "must have a length",
                                                 "weld it to another body",
                                                 "puts the last copy beyond",
-                                                "accurate bending does not go with",  // of what is `like` another, too
-                                                "is no material: orthotropic",        // numbers that do not go together
-                                                "with the orthotropic law",           // which may be that of `like`
+                                                "accurate bending does not go with",  // of the `like` material, too
+                                                "is no material: orthotropic",        // inconsistent numbers
+                                                "with the orthotropic law",           // which may come from `like`
                                                 "only soft bodies have nodes"};
         const bool isMeaning =
             std::any_of(std::begin(kMeanings), std::end(kMeanings),
@@ -198,7 +200,7 @@ TEST_F(SceneSchema, TakesTheSamples)
     }
 }
 
-// Every limit of the schema and what lies close to it on both sides, and values of all kinds.
+// Each limit of the schema, values close to it on both sides, and values of all types.
 std::vector<json> valuesToTry(const json& schema)
 {
     std::set<double> numbers = {0, 1e-12, -1e-12, 0.5, 1.5};
@@ -294,7 +296,7 @@ TEST_F(SceneSchema, AgreesWithTheReaderOnEveryAddedMember)
     EXPECT_GT(m_invalid, 1000);
 }
 
-// The scene as text, so that scenes can be compared: what has a default.
+// The scene as text with defaults filled in, for comparison.
 std::string written(const SceneDescription& scene)
 {
     json all = {scene.m_title,   scene.m_step,      scene.m_seconds,          scene.m_framesPerSecond,
@@ -339,7 +341,7 @@ std::string written(const SceneDescription& scene)
     return all.dump();
 }
 
-// A member that is left out is as one with the schema's default, and not as it was.
+// A member that is left out has the schema's default, not its former value.
 TEST_F(SceneSchema, HasTheReadersDefaults)
 {
     int count = 0;
@@ -347,8 +349,8 @@ TEST_F(SceneSchema, HasTheReadersDefaults)
         for (const auto& [name, property] : m_document.at(json::json_pointer(place.m_inSchema))["properties"].items())
         {
             json scene = sample(place.m_full), &object = scene[json::json_pointer(place.m_at)];
-            object.erase("like");  // whose values are taken otherwise
-            // The user of gum has values of its own, and nothing is of timber: SceneReader knows its defaults.
+            object.erase("like");  // its values are inherited otherwise
+            // The user of gum has values of its own, and nothing uses timber: SceneReader knows its defaults.
             const bool isSeen = std::string(place.m_at).rfind("/materials/", 0) != 0;
             if (!property.contains("default") || !object.contains(name) || !isSeen) continue;
             const std::string before = written(parseScene(scene.dump(), m_folder.path("")));
@@ -399,7 +401,7 @@ INSTANTIATE_TEST_SUITE_P(Demos, DemoScene,
                          testing::Values("beam", "press", "hammer", "locking", "bending", "relax", "crush", "plate"),
                          nameOf);
 
-// The elephant is there only when demos/run.sh has fetched it; the rest of the scene is looked at without it.
+// The elephant exists only after demos/run.sh has fetched it; the rest of the scene is checked without it.
 TEST_F(SceneSchema, TheMainDemosSceneIsRead)
 {
     std::ifstream file(BULLETFEM_SCENES "/drop.json");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// All that can be done in the window, without one.
+//
+// All actions of the window, without a window.
 #include "tools/scene/scene_simulation.h"
 
 #include <gmock/gmock.h>
@@ -43,7 +44,7 @@ protected:
     {
         for (int k = 0; k < count; ++k) m_simulation->step();
     }
-    /// What a user would see while files are opened.
+    /// Waits as a user would while files are loaded.
     void waitUntilOpened()
     {
         for (; !m_simulation->progress().m_text.empty(); std::this_thread::sleep_for(std::chrono::milliseconds(1)))
@@ -89,7 +90,7 @@ TEST_F(SceneSimulationTest, BoxesAndBallsFallAtTheCursor)
     m_simulation->act(ViewerKey::ball, downAt(0.1, -0.1));
     EXPECT_EQ(m_simulation->message(), "");
     ASSERT_EQ(m_world->rigidCount(), 3);
-    const double radius = 0.5 * std::sqrt(1 + 0.16 + 1), size = 0.22 * radius;  // of the block, of what is added
+    const double radius = 0.5 * std::sqrt(1 + 0.16 + 1), size = 0.22 * radius;  // of the block, and of the added ball
     EXPECT_NEAR(norm(rigidAt(1) - Vec3{2, 1.5 * size, 0.3}), 0, 1e-3) << "its own size above the ground";
     EXPECT_NEAR(norm(rigidAt(2) - Vec3{0.1, 0.4 + 1.5 * size, -0.1}), 0, 1e-3) << "above the block";
     EXPECT_NEAR(1 / double(m_world->rigid(1).getInvMass()), 500 * size * size * size, 1e-3);
@@ -116,7 +117,7 @@ TEST_F(SceneSimulationTest, AFileBecomesABody)
     m_simulation->open(m_folder.path("ball.off"));
     EXPECT_THAT(m_simulation->progress().m_text, HasSubstr("ball.off: "));
     EXPECT_EQ(m_world->softCount(), 0);
-    steps(2);  // the window lives while it is made
+    steps(2);  // the window responds while it is made
     waitUntilOpened();
     ASSERT_EQ(m_world->softCount(), 1);
     EXPECT_THAT(m_simulation->message(), testing::AllOf(HasSubstr(" tetrahedra, 0."), HasSubstr(" m long: ball.off")));
@@ -186,10 +187,10 @@ TEST_F(SceneSimulationTest, OpeningIsGivenUpAtOnce)
     EXPECT_EQ(m_world->softCount(), 2);
     EXPECT_THAT(m_simulation->message(), HasSubstr("small.off"));
     m_simulation->act(ViewerKey::cancel, downAt(0, 0));
-    EXPECT_EQ(m_simulation->message(), "") << "there is nothing to give up";
+    EXPECT_EQ(m_simulation->message(), "") << "no action to cancel";
 }
 
-// The arrows are nodal forces in newtons: together they carry the weight.
+// The arrows are nodal forces in newtons; their sum is the weight.
 TEST_F(SceneSimulationTest, ForcesAreArrowsWithALegend)
 {
     begin(kBlockOnGround);
@@ -259,7 +260,7 @@ TEST_F(SceneSimulationTest, KeysLeadBackInTimeAlsoWhileABodyIsHeld)
     ASSERT_TRUE(m_simulation->beginDrag({{0, 0.2, 5}, {0, 0.2, -5}}));
     m_simulation->moveDrag({{0, 0.9, 5}, {0, 0.9, -5}});
     const PictureRay anywhere = downAt(0, 0);
-    steps(25);  // states at 30 and 40 are of a body that is held
+    steps(25);  // in states 30 and 40 a body is held
     EXPECT_THAT(m_simulation->status(), HasSubstr("Kept since 0.00 s"));
     for (const int step : {40, 30, 20, 10, 0})
     {
@@ -274,7 +275,7 @@ TEST_F(SceneSimulationTest, KeysLeadBackInTimeAlsoWhileABodyIsHeld)
     EXPECT_EQ(m_world->steps(), 10);
     EXPECT_EQ(m_simulation->message(), "");
     steps(40);
-    EXPECT_NEAR(lowest(0), 0, 1e-3) << "nothing holds it";
+    EXPECT_NEAR(lowest(0), 0, 1e-3) << "without support";
     m_simulation->act(ViewerKey::later, anywhere);
     EXPECT_THAT(m_simulation->message(), HasSubstr("latest"));
 }
@@ -297,7 +298,7 @@ TEST_F(SceneSimulationTest, ChangedMaterialRestartsTheHistory)
     begin(kBlockOnGround);
     steps(30);
     m_simulation->setParameter(3, 3);
-    EXPECT_EQ(m_simulation->history().count(), 4) << "gravity is no matter";
+    EXPECT_EQ(m_simulation->history().count(), 4) << "gravity is negligible";
     EXPECT_NEAR(m_simulation->parameters()[3].m_value, 3, 1e-12);
     m_simulation->setParameter(0, 2e6);
     EXPECT_EQ(m_simulation->history().count(), 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// A scene in a window, steered by a scripted mouse. Needs a display: run through xvfb-run where there is none.
+//
+// A scene in a window, controlled by a scripted mouse. Needs a display: use xvfb-run if there is none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -86,7 +87,7 @@ TEST_F(SceneViewer, AScriptedDragPullsTheBodyAlong)
         for (int x = 0; x < before.m_size.m_width; ++x) colours.insert(before.at(x, y));
     EXPECT_GT(colours.size(), 500u) << "bodies, ground, shadow, sky and the panel";
 
-    play(ViewerEvent::key(ViewerKey::panel), 0);  // what it covers cannot be held
+    play(ViewerEvent::key(ViewerKey::panel), 0);  // objects under the panel cannot be picked
     const Vec3 hold{0, 0.3, 0.2};
     play(moveTo(hold));
     play(ViewerEvent::press());
@@ -133,7 +134,7 @@ TEST_F(SceneViewer, BodiesStopAcceleratingWithoutGravity)
     EXPECT_NEAR(m_run->momentum(0).y / mass, fallen - m_simulation->parameters()[3].m_value * 0.1, 0.01);
 }
 
-// A slider changes one value, and leaves what bodies do not have in common.
+// A slider changes one value, and keeps values in which bodies differ.
 TEST_F(SceneViewer, MaterialSlidersKeepHiddenValues)
 {
     open(kCube);
@@ -150,7 +151,7 @@ TEST_F(SceneViewer, MaterialSlidersKeepHiddenValues)
     EXPECT_THAT(m_simulation->status(), testing::HasSubstr("tetrahedra"));
 }
 
-// What the window's user does in a minute: a mesh, a ball onto it, back in time, and what cannot be opened.
+// A user's minute in the window: a mesh, a ball onto it, back in time, and a file that cannot be opened.
 TEST_F(SceneViewer, ADroppedMeshIsHitByABallAndTimeGoesBack)
 {
     open(R"({ "step": 0.01, "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } }] })");

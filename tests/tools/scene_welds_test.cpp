@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bodies of scenes in pieces, and welds between bodies.
+//
+// Bodies of scenes in fragments, and welds between bodies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -122,7 +123,7 @@ TEST(SceneWelds, FragmentsKeepMassMotionAndPinsOfTheBody)
     EXPECT_NEAR(momentum, 3 * massOf(run), 1e-3 * momentum);
 }
 
-// Welds without a limit: the bar bends as it does in one piece.
+// Welds without a limit: the bar bends as one body.
 TEST(SceneWelds, FragmentsBendAsTheWhole)
 {
     SceneRun whole(clampedBar("", "", "[0, -1, 0]")),
@@ -133,14 +134,15 @@ TEST(SceneWelds, FragmentsBendAsTheWhole)
     EXPECT_NEAR(before - lowestOf(cut.until(4)), sag, 0.01 * sag);
 }
 
-// F / A is 2500 Pa: at half the stress that the welds bear the bar stretches by F / (E A), at twice that it is torn.
+// F / A is 2500 Pa: with welds of twice that strength the bar stretches by F / (E A), with welds of half of it, it
+// tears.
 TEST(SceneWelds, FragmentsTearAtTheirStress)
 {
     const auto run = [](double stress)
     { return clampedBar(R"(, "pieces": { "cells": 5, "breakStress": )" + std::to_string(stress) + " }", pull(100)); };
     SceneRun holds(run(5000)), tears(run(1250));
     const int welds = weldCount(holds);
-    // Its corners, which are pulled as hard as what lies between them, are a little ahead.
+    // The corners, with equal forces as the other nodes, are displaced slightly further.
     EXPECT_NEAR(farthestOf(holds.until(4)) - 0.5, 2500 / 1e5, 0.05 * 2500 / 1e5);
     EXPECT_EQ(weldCount(holds), welds);
     EXPECT_EQ(btFemWelds::breaks(holds.m_world.fem()).size(), 0);
@@ -148,7 +150,7 @@ TEST(SceneWelds, FragmentsTearAtTheirStress)
     EXPECT_LT(weldCount(tears), welds);
 }
 
-// A cube of 8 kg hangs from another one, which is held, by a weld that bears this force.
+// A cube of 8 kg hangs from a fixed one by a weld of this strength.
 std::string hangingCube(const std::string& strength)
 {
     const std::string cube = R"("mesh": { "box": [0.2, 0.2, 0.2], "cell": 0.1 },
@@ -224,12 +226,12 @@ TEST(SceneWelds, AnchorsOfAFragmentedBodyHoldItsFragments)
             const btFemAnchorReport& anchor = run.m_world.fem().anchors(&run.m_world.soft(i))[k];
             if (anchor.m_object == &run.m_world.rigid(0)) force += double(anchor.m_impulse.x()) / 0.01;
         }
-    // E A (l / L + beta l' / L), and some of the wave
+    // E A (l / L + beta l' / L), and a remainder of the wave.
     EXPECT_NEAR(force, 1e5 * 0.04 * (0.05 + 0.05 * 0.05), 20);
     EXPECT_NEAR(farthestOf(run), 0.55, 1e-3);
 }
 
-// Of the cube's lower half, label 1, and its upper one, label -2.
+// Regions of the cube's lower half, label 1, and of its upper one, label -2.
 TEST(SceneWelds, FragmentsHaveTheRegionsOfTheirElements)
 {
     const TemporaryFolder folder;

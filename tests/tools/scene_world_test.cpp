@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Scenes in motion, against formulas.
+//
+// Scenes in motion, against closed formulas.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +20,8 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 // A cantilever under its own weight: w L^4 / (8 E I) by Euler and Bernoulli, and w L^2 / (2 k G A) of shear by
-// Timoshenko, k = 5/6. It is so stiff that it bends by 0.4 % of its length: beam theory is linear. Linear tetrahedra
-// are too stiff in bending by a share that falls with the square of their size, so that two meshes tell the limit.
+// Timoshenko, k = 5/6. It bends by 0.4 % of its length, so that beam theory is linear. Linear tetrahedra are too stiff
+// in bending by an error of second order in their size, so that two meshes give the limit.
 double tipDeflection(double cell)
 {
     SceneRun run(R"({ "step": 0.02, "softBodies": [{ "name": "beam", "mesh": { "box": [1, 0.2, 0.2], "cell": )" +
@@ -47,7 +48,7 @@ TEST(SceneWorld, ABeamBendsAsBeamTheorySays)
     RecordProperty("fine", std::to_string(fine / theory));
     EXPECT_NEAR(fine / theory, 1, 0.06);
     EXPECT_LT(coarse, fine);
-    EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "the limit of small elements";
+    EXPECT_NEAR((4 * fine - coarse) / 3 / theory, 1, 0.015) << "extrapolated to small elements";
 }
 
 TEST(SceneWorld, TheShortestStepMovesABody)
@@ -77,7 +78,7 @@ TEST(SceneWorld, APressedBlockPushesBackByItsStiffness)
     EXPECT_NEAR(run.m_world.fem().contactForce(&block, &run.m_world.rigid(0)).y(), expected, 0.03 * expected);
 }
 
-// The axes of a scene are those of the mesh: the body's rotation turns its fibres upright.
+// A scene's axes are those of the mesh: the body's rotation turns its fibres upright.
 TEST(SceneWorld, AnOrthotropicBlockPushesBackByItsFibres)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "solver": { "tolerance": 1e-5 },
@@ -111,7 +112,7 @@ TEST(SceneWorld, AnchorsFollowTheirObjects)
     for (int i = 0; i < run.nodeCount(0); ++i) EXPECT_GT(run.node(0, i).y, -0.11) << "hangs";
 }
 
-// A free motor of torque T turns a body of inertia I to T t / I, until it has its speed; right-handed about the axis.
+// A free motor of torque T accelerates a body of inertia I to T t / I, up to its speed; right-handed about the axis.
 TEST(SceneWorld, AHingeTurnsByItsMotor)
 {
     const std::string scene = R"({ "gravity": [0, 0, 0], "step": 0.01,
@@ -127,7 +128,7 @@ TEST(SceneWorld, AHingeTurnsByItsMotor)
     EXPECT_NEAR(norm(vec3(strong.m_world.rigid(0).getWorldTransform().getOrigin())), 0, 1e-4);
 }
 
-// A pendulum of a point mass at the end of 1 m: it keeps its distance from the pivot.
+// A pendulum, a point mass at 1 m: its distance from the pivot is constant.
 TEST(SceneWorld, APointHoldsItsPivot)
 {
     SceneRun run(
@@ -155,7 +156,7 @@ TEST(SceneWorld, AForceActsInItsTimeAlone)
     run.until(0.2);
     EXPECT_LT(norm(run.momentum(0)), 1e-12);
     run.until(0.21);
-    for (int i = 0; i < run.nodeCount(0); ++i)  // shared out by mass, it moves all nodes alike
+    for (int i = 0; i < run.nodeCount(0); ++i)  // distributed by mass, it accelerates all nodes equally
         EXPECT_NEAR(norm(vec3(run.m_world.soft(0).m_nodes[i].m_v) - Vec3{0.1 / 8, 0, 0}), 0, 1e-6);
     run.until(0.35);
     EXPECT_NEAR(run.momentum(0).x, 10 * 0.15, 1e-3 * 1.5);
@@ -164,7 +165,7 @@ TEST(SceneWorld, AForceActsInItsTimeAlone)
     EXPECT_NEAR(run.m_world.rigid(0).getLinearVelocity().y(), 4 * 0.2 / 2, 1e-3);
 }
 
-// Pulled nodes leave the box that chose them, and are pulled on.
+// Nodes that leave the box of the force stay under the force.
 TEST(SceneWorld, ForceStaysWithTheNodesOfItsInitialBox)
 {
     SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01,
@@ -192,7 +193,7 @@ TEST(SceneWorld, ABakedBodyFallsWithItsOwnMass)
     EXPECT_NEAR(norm(run.node(0, 0) - corner - Vec3{0, -fall, 0.5}), 0, 1e-4);
 }
 
-// Layers of a cube of 1 m: the lower one is squeezed by what lies above, without lateral strains.
+// Layers of a cube of 1 m: the lower one is compressed by the weight of the upper one, without lateral strains.
 TEST(SceneWorld, RegionsOfAFileHaveMaterialsOfTheirOwn)
 {
     const TemporaryFolder folder;
@@ -242,7 +243,7 @@ TEST(SceneWorld, MeshesHaveTheRequestedSizesAndElements)
     EXPECT_NEAR(scan.m_world.soft(1).getTotalMass(), 1000 * 8, 8);
 }
 
-// A ball that falls .2 m has 2 m/s, and half of it after it has bounced.
+// A ball that falls .2 m reaches 2 m/s, and half of it after the bounce.
 TEST(SceneWorld, ASoftBallBouncesByItsRestitution)
 {
     for (const double restitution : {0.0, 0.5})
@@ -254,7 +255,7 @@ TEST(SceneWorld, ASoftBallBouncesByItsRestitution)
           "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] }, "restitution": 1 }] })");
         double highest = 0, mass = 0;
         for (int i = 0; i < run.nodeCount(0); ++i) mass += 1 / double(run.m_world.soft(0).m_nodes[i].m_im);
-        run.until(0.22);  // it has touched the ground after .202 s
+        run.until(0.22);  // contact with the ground after .202 s
         for (; run.m_world.time() < 0.5; run.m_world.step()) highest = std::max(highest, run.momentum(0).y / mass);
         EXPECT_NEAR(highest, 2 * restitution, 0.2) << restitution;
     }
@@ -277,7 +278,7 @@ TEST(SceneWorld, ASceneGivesTheSameBitsAgain)
     EXPECT_EQ(run(), run());
 }
 
-// What the reader cannot know is said when the world is made, after other bodies were added to it.
+// Errors that the reader cannot detect are reported when the world is made, after other bodies were added to it.
 std::string refusal(const std::string& softMember, const std::string& more, const std::string& folder = ".")
 {
     const std::string text = R"({ "softBodies": [{ "name": "first", "mesh": { "box": [1, 1, 1], "tets": 40 } },

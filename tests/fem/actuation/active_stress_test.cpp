@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Fibres that are activated and elements that expand.
+// Activated fibres and expanding elements: stress and strain against closed formulas.
 #include "bullet_fem/fem/body/active_stress.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Body freeBar(double poisson = 0.3)
     return makeBody(makeBox({1, 0.2, 0.2}, {8, 2, 2}), elasticMaterial(kYoung, poisson), {}, 1);
 }
 
-// The stretch F of a body that is strained alike everywhere, from the edges at its corner.
+// Deformation gradient F of a uniformly strained body, from the edges at one corner.
 Mat3 stretchOf(const Body& body)
 {
     const TetMesh& mesh = body.m_model->mesh();
@@ -56,7 +56,7 @@ TEST(ActivatedFibres, DrawAFreeBarTogetherAlongThem)
     }
 }
 
-// A region alone: its elements shorten, and the others do not.
+// Fibres in one region: its elements shorten, the others do not.
 TEST(ActivatedFibres, ActInTheirRegion)
 {
     Body body = makeBody(makeBox({1, 0.2, 0.2}, {8, 2, 2}), elasticMaterial(kYoung, 0), {}, 1);
@@ -96,7 +96,7 @@ TEST(ActivatedFibres, MayHaveOneDirectionPerElement)
 
 TEST(Expansion, FreeBodyStretchesByTheGivenStrain)
 {
-    for (const double nu : {0.0, 0.3, 0.45})  // the last with shared volume changes
+    for (const double nu : {0.0, 0.3, 0.45})  // the last one with patches (mean dilatation)
         for (const double strain : {-0.05, 0.01, 0.5})
         {
             Body body = freeBar(nu);
@@ -108,7 +108,7 @@ TEST(Expansion, FreeBodyStretchesByTheGivenStrain)
         }
 }
 
-// [Timoshenko 1925, eq. 4] for layers of the same thickness and material: curvature = 3/2 strain / thickness of both.
+// [Timoshenko 1925, eq. 4] for two layers of equal thickness and material: curvature = 3/2 strain / total thickness.
 double bilayerCurvature(const std::function<void(Body&, const std::vector<int>& upper)>& drive)
 {
     const double thickness = 0.04;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What the step promises to all bodies, of bodies with actuators.
+// The guarantees of a step hold for bodies with actuators: equal bits, momentum, no allocation.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/fem/batch/batch_memory.h"
@@ -57,7 +57,7 @@ TEST(ActuatedSteps, AreTheSameOnAnyNumberOfThreads)
         StepSettings settings;
         settings.m_numericalDamping = damping;
         Body alone = actuatedBall();
-        ASSERT_GT(alone.m_model->nodeCount(), 1000);  // what is smaller is not shared out
+        ASSERT_GT(alone.m_model->nodeCount(), 1000);  // smaller bodies are not divided among threads
         for (int k = 0; k < 5; ++k) step(alone, settings);
         for (const int count : {1, 2, 3, 8})
         {
@@ -83,7 +83,7 @@ TEST(ActuatedSteps, AllocateNothingAfterTheFirst)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// Copies beside bodies without actuators, which go in a batch.
+// Copies with actuators beside bodies without any, which are solved in a batch.
 TEST(ActuatedSteps, AreTheSameBesideABatch)
 {
     Body alone = actuatedBall();
@@ -112,7 +112,7 @@ TEST(ActuatedSteps, AreTheSameBesideABatch)
     for (const int k : {0, 3, 6, 9}) EXPECT_TRUE(sameBits(alone, bodies[k])) << k;
 }
 
-// It goes in a batch again, and answers impulses alone, as one that never had any.
+// After its actuators are removed the body is batched again, with the bits of a body that never had any.
 TEST(ActuatedSteps, LeaveNothingWhenTheActuatorsAreGone)
 {
     BatchMemory memory;
@@ -127,7 +127,7 @@ TEST(ActuatedSteps, LeaveNothingWhenTheActuatorsAreGone)
     }
     for (int s = 0; s < 3; ++s) step(bodies[0], settings);
     bodies[0].m_actuators = {};
-    restore(snapshotOf(bodies[0]), bodies[1]);  // which never had any
+    restore(snapshotOf(bodies[0]), bodies[1]);  // a body that never had any
     std::vector<FreeMotion> motions(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {

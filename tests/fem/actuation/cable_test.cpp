@@ -28,8 +28,8 @@ bool atWall(const Vec3& X)
     return X.x == 0;
 }
 
-// One cell of 1 x .2 x .2 m, fixed at x = 0, whose other end can move along x alone, or nearly: nodes opposite each
-// other have a cable of a quarter of the stiffness [N/m].
+// One cell of 1 x .2 x .2 m, fixed at x = 0, whose other end can move along x only, apart from small errors: four
+// cables between opposite nodes share the stiffness [N/m].
 struct Slider
 {
     explicit Slider(double stiffness, double restLength, double step = 1.0 / 60)
@@ -70,8 +70,8 @@ struct Slider
     double m_mass = 10;  // [kg]
 };
 
-// A beam of .2 x .04 x .04 m along x, fixed at x = 0, with a cable along it in the middle plane, a cell below its upper
-// face, through points a cell apart.
+// A beam of .2 x .04 x .04 m along x, fixed at x = 0, with a cable along it in the middle plane, one cell below its
+// upper face, through points one cell apart.
 Body beamWithCable(double young, int cells, double step)
 {
     Body body =
@@ -103,7 +103,7 @@ TEST(CableTension, BendsABeamToAConstantCurvature)
     }
     const double shortening = L - body.m_state.m_x[nodeAt(mesh, {L, 0.02, 0.02})].x;
     EXPECT_NEAR(shortening, T * L / (young * 0.04 * 0.04),
-                0.04 * shortening);  // the middle of a face, not the cable's end
+                0.04 * shortening);  // a face's centre, not the cable's end point
 }
 
 TEST(CableTension, HasNoSumAndNoTorque)
@@ -140,8 +140,8 @@ TEST(CableTension, HasNoSumAndNoTorque)
     }
 }
 
-// A fifth of what the beam's Young's modulus makes of its section. Across the cable its tension is as stiff as the
-// elements at its points, and 160 times stiffer than a step could take explicitly.
+// The tension is a fifth of E times the section's area. Transversely it is as stiff as the elements at its points, and
+// 160 times above the stability limit of an explicit step.
 TEST(CableTension, IsStableHoweverStrong)
 {
     for (const double damping : {1.0, 0.0})
@@ -175,13 +175,13 @@ TEST(ElasticCable, StretchesByForceOverStiffness)
     EXPECT_NEAR(slider.x() - 1, 100 / (5000 + ownStiffness), 2e-8);
 }
 
-// omega = sqrt(k / m), where it is taut throughout.
+// omega = sqrt(k / m), with the cable always taut.
 TEST(ElasticCable, SwingsWithItsFrequency)
 {
     const double h = 1.0 / 240, k = 4000;
     Slider slider(k, 0.9, h);
     slider.throwEnd(0.2);
-    for (Vec3& x : slider.m_body.m_state.m_x) x.x *= 0.92;  // where it would be at rest, nearly, under the load
+    for (Vec3& x : slider.m_body.m_state.m_x) x.x *= 0.92;  // close to the equilibrium under the load
     for (Vec3& f : slider.m_body.m_loads.m_force) f = {k * 0.02 / 4, 0, 0};
     StepSettings settings;
     settings.m_step = h;
@@ -208,7 +208,7 @@ TEST(ElasticCable, SwingsWithItsFrequency)
     EXPECT_NEAR((crossing - first) / periods, period, 0.01 * period);
 }
 
-// Thrown towards its other end, what hangs on the stiffest of cables flies as if there were none.
+// Moving towards the cable's other end: the slack cable, however stiff, does not change the motion.
 TEST(ElasticCable, NeverPushes)
 {
     for (const double stiffness : {1e5, 1e7, 1e12})
@@ -224,13 +224,13 @@ TEST(ElasticCable, NeverPushes)
             slider.throwEnd(-1);
             slider.m_body.m_loads.m_priorVelocity.assign(slider.m_body.m_state.m_v.size(), Vec3());
             step(slider.m_body, settings);
-            const double expected = -1 + 10.0 / 60;  // the load goes on, 100 N on 10 kg
+            const double expected = -1 + 10.0 / 60;  // the load still acts, 100 N on 10 kg
             EXPECT_NEAR(slider.m_body.m_state.m_v.back().x, expected, 0.01) << stiffness << ", " << damping;
             EXPECT_LT(slider.x(), before - 0.8 / 60 * 0.5);
         }
 }
 
-// A force that ends the pull within a step: the cable lets go in that step.
+// A load reverses the pull within a step: the cable is slack in that step.
 TEST(ElasticCable, LetsGoInTheStepInWhichItIsSlack)
 {
     Slider slider(1e6, 1);
@@ -241,7 +241,7 @@ TEST(ElasticCable, LetsGoInTheStepInWhichItIsSlack)
     EXPECT_NEAR(slider.m_body.m_state.m_v.back().x, -100.0 / 60, 0.02);
 }
 
-// The wall that it is fixed to begins to move.
+// The wall at the cable's fixed end starts to move.
 TEST(ElasticCable, FollowsItsFixedEndInTheSameStep)
 {
     Slider slider(1e7, 1);
@@ -271,7 +271,7 @@ TEST(ElasticCable, CatchesAMovingEnd)
     }
 }
 
-// Two in the same place are one of twice the stiffness, whatever that is.
+// Two coincident cables equal one of twice the stiffness, for any stiffness.
 TEST(ElasticCable, MayLieBesideItsLike)
 {
     for (const double stiffness : {5000.0, 1e12})
@@ -287,7 +287,7 @@ TEST(ElasticCable, MayLieBesideItsLike)
     }
 }
 
-// Along one line in a body, by points of different nodes: to single precision their forces are the same.
+// Cables along one line through points of different nodes have equal forces to single precision.
 TEST(ElasticCable, MayLieNearItsLike)
 {
     Body body = beamWithCable(1e5, 4, 1.0 / 60);

@@ -37,14 +37,14 @@ Body hollowBall(double young = 1e6, double poisson = 0.3, int cells = 6, double 
     return body;
 }
 
-// The nodes at random beside where they are, by up to `size` [m].
+// Moves the nodes at random by up to `size` [m].
 void shake(std::vector<Vec3>& x, double size, unsigned seed = 5)
 {
     RandomVectors random(seed);
     for (Vec3& xi : x) xi += size * random.next();
 }
 
-// What the step made of rest: for short steps h times the forces on the nodes.
+// Impulses of a step from rest: for short steps h times the nodal forces.
 std::vector<Vec3> impulsesOf(Body& body, double step)
 {
     StepSettings settings;
@@ -87,7 +87,7 @@ TEST(Cavities, AreAsManyAsThereAre)
         chamber.m_triangles = triangles;
         EXPECT_NEAR(chamber.volume(mesh.restPositions()), 1, 1e-12);
     }
-    // A hole through all of it is none.
+    // A hole through the whole body is no cavity.
     EXPECT_TRUE(findCavities(withHoles(makeBox({3, 3, 3}, {3, 3, 3}), [](const Vec3& X)
                                        { return std::fabs(X.y - 1.5) < 0.5 && std::fabs(X.z - 1.5) < 0.5; }))
                     .empty());
@@ -171,7 +171,8 @@ TEST(ChamberForces, InflateABallAsLameSays)
 
 // --- A sealed gas ---
 
-// In equilibrium V = V0 + (compliance) p and (p + p0) V = gas, with the compliance from a small given pressure.
+// The equilibrium has V = V0 + compliance p and (p + p0) V = gas; the compliance comes from a small prescribed
+// pressure.
 TEST(SealedGas, KeepsItsAmountInEquilibrium)
 {
     Body body = hollowBall(2e6, 0.3, 6, 0.2);
@@ -191,7 +192,7 @@ TEST(SealedGas, KeepsItsAmountInEquilibrium)
     EXPECT_NEAR((chamber.pressureAt(V) + kStandardAtmosphere) * V, chamber.m_gas, 1e-12 * chamber.m_gas);
 }
 
-// A gas that is a thousand times stiffer than what a step of 1/60 s could take explicitly.
+// A gas a thousand times stiffer than the stability limit of an explicit step of 1/60 s.
 TEST(SealedGas, IsStableAtAnyStiffness)
 {
     for (const double damping : {1.0, 0.0})
@@ -210,7 +211,7 @@ TEST(SealedGas, IsStableAtAnyStiffness)
             const double before = mechanicalEnergy(body);
             double largest = 0;
             int iterations = 0;
-            body.m_loads.m_priorVelocity.assign(body.m_state.m_v.size(), Vec3());  // it is an impulse
+            body.m_loads.m_priorVelocity.assign(body.m_state.m_v.size(), Vec3());  // the velocity acts as an impulse
             for (int k = 0; k < 240; ++k)
             {
                 iterations = std::max(iterations, step(body, settings).m_iterations);
@@ -224,7 +225,7 @@ TEST(SealedGas, IsStableAtAnyStiffness)
         }
 }
 
-// Velocities that turn with the body do not change the volume.
+// Velocities of a rigid rotation do not change the volume.
 TEST(SealedGas, LetsASpinningBallSpin)
 {
     Body body = hollowBall(1e5, 0.3, 4);
@@ -247,7 +248,7 @@ TEST(SealedGas, LetsASpinningBallSpin)
     EXPECT_NEAR(mechanicalEnergy(body), before, 0.01 * before);
 }
 
-// Crushed by hand until its walls have crossed: its pressure stays finite, and brings it back.
+// Crushed by hand until its walls have crossed: the pressure stays finite and restores the shape.
 TEST(SealedGas, ComesBackFromInsideOut)
 {
     Body body = hollowBall(1e5, 0.3, 4);

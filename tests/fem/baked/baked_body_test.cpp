@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-// Where the nodes are after a second under their weight.
+// Node coordinates after a second under gravity.
 std::vector<double> coordinatesAfterFalling(const BakedBody& baked)
 {
     Body body(baked.m_model);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Files whose checksums are right, with one number in them that is not.
+// Baked files with right checksums and one invalid number are rejected.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ namespace
 
 using testing::HasSubstr;
 
-// Where a section begins.
+// Offset of a section in the file.
 template <class Array>
 std::size_t placeOf(const BakedHeader& header, Array BakedArrays::*wanted)
 {
@@ -34,7 +34,7 @@ std::size_t placeOf(const BakedHeader& header, Array BakedArrays::*wanted)
 class BakedContents : public testing::Test
 {
 protected:
-    // What is said of the file with another entry in a section.
+    // The error message for the file with a replaced entry of a section.
     template <class Array, class Entry>
     std::string with(Array BakedArrays::*section, std::size_t index, const Entry& entry) const
     {
@@ -43,7 +43,7 @@ protected:
         return complaint(sealed(bytes));
     }
 
-    // What is said of the file with another value in its header.
+    // The error message for the file with a replaced value of its header.
     template <class Value>
     std::string with(Value BakedHeader::*member, const Value& value) const
     {
@@ -136,7 +136,7 @@ TEST_F(BakedContents, HeaderFieldsAreValidated)
     EXPECT_THAT(with(&BakedHeader::m_ordering, {'\n'}), HasSubstr("no meaning"));
 }
 
-// Three elements apart from each other make three supernodes without rows, so that any may be the parent of any.
+// Three separate elements give three supernodes without rows below, so that any of them may be a parent of another.
 TEST_F(BakedContents, SupernodeTreesAreInPostorder)
 {
     std::vector<Vec3> X;
@@ -145,7 +145,7 @@ TEST_F(BakedContents, SupernodeTreesAreInPostorder)
             X.push_back(x + Vec3{3.0 * k, 0, 0});
     m_bytes = bytesOf(bakeBody(TetMesh(X, {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}}), {}));
     ASSERT_EQ(header().m_supernodes, 3u);
-    EXPECT_EQ(with(&BakedArrays::m_supernodes, 2, 1), "");  // the first, a child of the second
+    EXPECT_EQ(with(&BakedArrays::m_supernodes, 2, 1), "");  // the first as a child of the second
     EXPECT_THAT(with(&BakedArrays::m_supernodes, 2, 2), HasSubstr("does not follow"));
 }
 

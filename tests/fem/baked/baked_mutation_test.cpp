@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Files whose checksums are right and whose contents are anything: an error, or a body that can be stepped.
+// Baked files with right checksums and random contents: each gives an error, or a body that can be stepped.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -26,7 +26,7 @@ public:
     std::string mutated()
     {
         std::string bytes = m_bytes;
-        // Half of them in the header or behind the panels, which are most of the file.
+        // Half of the changes go to the header or behind the panels, which fill most of the file.
         BakedHeader header = {};
         std::memcpy(&header, bytes.data(), sizeof header);
         const std::size_t arrays = alignedBytes(sizeof header + sizeof(float) * header.m_panelFloats);
@@ -60,7 +60,7 @@ private:
     std::mt19937 m_random{1};
 };
 
-// Steps it, and asks for compliances: all that goes through the factor.
+// Steps the body and reads compliances, to use the whole factor.
 bool standsUse(const BakedBody& baked)
 {
     Body body(baked.m_model);
@@ -109,7 +109,7 @@ TEST_P(BakedMutations, AreRefusedOrHarmless)
             ASSERT_NE(why.find("cannot read"), std::string::npos) << why;
         }
     }
-    EXPECT_GT(refused, 500);  // both ways are gone
+    EXPECT_GT(refused, 500);  // both outcomes occur
     EXPECT_GT(used, 500);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Baked bodies that are orthotropic, in one region or in some of several.
+// Baked orthotropic bodies: one region, or several of which some are orthotropic.
 #include <gmock/gmock.h>
 
 #include <cstddef>
@@ -51,7 +51,7 @@ std::vector<Vec3> swung(const BakedBody& baked)
     return body.m_state.m_x;
 }
 
-class BakedOrthotropic : public testing::TestWithParam<bool>  // several regions
+class BakedOrthotropic : public testing::TestWithParam<bool>  // true: several regions
 {
 protected:
     const TetMesh m_mesh = makeBox({1, 1, 3}, {2, 2, 6});
@@ -67,7 +67,7 @@ TEST_P(BakedOrthotropic, ComeBackWithConstantsAndBits)
     EXPECT_EQ(materials.m_regions.size(), GetParam() ? 3u : 1u);
     const Orthotropic& last = materials.m_regions.back().m_material.m_orthotropic;
     EXPECT_EQ(last.m_young[0], 3.3e6);
-    EXPECT_EQ(last.m_poisson[0], static_cast<double>(.31f));  // as Bullet rounds it
+    EXPECT_EQ(last.m_poisson[0], static_cast<double>(.31f));  // rounded as by Bullet
     EXPECT_EQ(last.m_along.y, static_cast<double>(.1f));
     EXPECT_EQ(read.m_model->materialMismatch(), 1);
     const std::vector<Vec3> found = swung(read), expected = swung(m_baked);
@@ -86,7 +86,7 @@ TEST_P(BakedOrthotropic, HaveAVersionOfTheirOwnAndTellTheirConstants)
     EXPECT_EQ(info.m_material.isOrthotropic(), !GetParam());  // of the first region
 }
 
-// With right checksums: the constants of the last region end the file but for what fills it up.
+// With right checksums: the constants of the last region are the end of the file, before its padding.
 TEST_P(BakedOrthotropic, InvalidConstantsAreRejected)
 {
     const std::size_t count = GetParam() ? 3 : 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Files that are not what they should be, and files that cannot be written.
+// Invalid baked files are refused, and so are paths that cannot be written.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ protected:
         m_folder.write("changed.bfem", bytes);
         return messageOf<std::runtime_error>([this] { readBakedBody(m_folder.path("changed.bfem")); });
     }
-    // Four or eight bytes at a place of the header.
+    // Replaces four or eight bytes at an offset of the header.
     template <class Number>
     std::string with(std::size_t place, Number number) const
     {

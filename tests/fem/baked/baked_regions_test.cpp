@@ -70,7 +70,7 @@ TEST_F(BakedRegions, ComeBackWithLabelsTableAndBits)
     ASSERT_EQ(materials.m_regions.size(), 2u);
     EXPECT_EQ(materials.m_regions[0].m_label, -2);
     EXPECT_EQ(materials.m_regions[1].m_label, 7);
-    EXPECT_EQ(materials.m_regions[1].m_material.m_poissonRatio, static_cast<double>(.47f));  // as Bullet rounds it
+    EXPECT_EQ(materials.m_regions[1].m_material.m_poissonRatio, static_cast<double>(.47f));  // rounded as by Bullet
     EXPECT_EQ(materials.m_regions[0].m_material.m_density, static_cast<double>(2500.1f));
     EXPECT_EQ(materials.m_regions[0].m_material.m_yieldStress, 4096);
     EXPECT_FALSE(materials.m_regions[1].m_material.yields());
@@ -82,7 +82,7 @@ TEST_F(BakedRegions, ComeBackWithLabelsTableAndBits)
     EXPECT_NEAR(mass, 1.5 * 1000 + 1.5 * 2500.1, 1e-6 * mass);
 }
 
-// Files of one material have the version that they had, and its bytes: readers of before take them.
+// Files of one material keep their old version and bytes, so that older readers accept them.
 TEST_F(BakedRegions, AloneHaveTheNewVersion)
 {
     const TemporaryFolder folder;
@@ -108,7 +108,7 @@ TEST_F(BakedRegions, RejectInvalidSettings)
     expectRejected([&] { bakeBody(m_mesh, settings); }, {"region 7", "materials for the regions: -2"});
 }
 
-// With right checksums.
+// The checksums are right.
 TEST_F(BakedRegions, RejectInvalidRegionNumbers)
 {
     const auto with = [&](std::size_t fromEnd, std::int32_t entry)
@@ -142,7 +142,7 @@ TEST_F(BakedRegions, RejectInvalidRegionNumbers)
     EXPECT_THAT(headed(40, 3), HasSubstr("sections take"));
 }
 
-// A factor of other materials: as far off as the worst element.
+// A factor of other materials: its mismatch is that of the worst element.
 TEST_F(BakedRegions, TellHowStaleAFactorIs)
 {
     ElementMaterials stiffer = m_baked.m_model->shape().m_materials;

@@ -33,7 +33,7 @@ BisectedTets lattice()
     return tets;
 }
 
-/// Halves leaves here and there, up to four levels.
+/// Bisects random leaves, up to four levels.
 void halveAtRandom(BisectedTets& tets)
 {
     unsigned seed = 1;
@@ -50,7 +50,7 @@ void halveAtRandom(BisectedTets& tets)
     }
 }
 
-// Where a node hung there would be sides that only one tet has, within the lattice.
+// A hanging node would leave faces with only one tetrahedron inside the lattice.
 TEST(BisectedTets, ShareTheirSides)
 {
     BisectedTets tets = lattice();
@@ -73,14 +73,14 @@ TEST(BisectedTets, ShareTheirSides)
         const Vec3 &a = tets.nodes()[side[0]], &b = tets.nodes()[side[1]], &c = tets.nodes()[side[2]];
         if (count == 1) boundary += 0.5 * norm(cross(b - a, c - a));
     }
-    EXPECT_NEAR(boundary, 52 + 4 + 2, 1e-9);  // the box's, and what two cubes leave: one side open, and two
+    EXPECT_NEAR(boundary, 52 + 4 + 2, 1e-9);  // the box's, and that of two missing cubes: one open face, and two
 }
 
 TEST(BisectedTets, HaveThreeShapes)
 {
     BisectedTets tets = lattice();
     halveAtRandom(tets);
-    std::map<int, int> shapes;  // by the mean ratio in 1 / 10,000
+    std::map<int, int> shapes;  // by the mean ratio in units of 1 / 10,000
     double volume = 0;
     for (const int leaf : leavesOf(tets))
     {

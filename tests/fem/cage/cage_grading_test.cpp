@@ -26,7 +26,7 @@ CageSettings graded(double cellSize, double cellsAcross = 2, int maxLevels = 3)
     return settings;
 }
 
-/// Along no axis.
+/// Rotates the surface about an oblique axis.
 SurfaceMesh tilted(SurfaceMesh surface)
 {
     const double c = std::cos(0.3), s = std::sin(0.3);
@@ -56,7 +56,7 @@ SurfaceMesh twoPlates()
     return joined(boxSurface({0, 0, 0}, {1, 1, 0.1}), boxSurface({0, 0, 0.2}, {1, 1, 0.3}));
 }
 
-/// Edge of a cube of six times an element's volume [m].
+/// Edge of the cube whose volume is six times the element's [m].
 double cellOf(const TetMesh& mesh, int e)
 {
     return std::cbrt(6 * mesh.tetVolume(e));
@@ -69,7 +69,7 @@ std::array<Vec3, 4> cornersOf(const TetMesh& mesh, int e)
     return {X[t[0]], X[t[1]], X[t[2]], X[t[3]]};
 }
 
-/// Nodes that hang are in the middle of an edge.
+/// Hanging nodes: those at the midpoint of an edge.
 int hangingNodes(const Cage& cage)
 {
     const std::vector<Vec3>& X = cage.m_mesh.restPositions();
@@ -92,7 +92,7 @@ int hangingNodes(const Cage& cage)
     return hanging;
 }
 
-/// What every graded cage promises, whatever its surface.
+/// Invariants of each graded cage, for any surface.
 void expectGradedPromises(const Cage& cage, const SurfaceMesh& surface, const CageSettings& settings)
 {
     const CageReport& report = cage.m_report;
@@ -133,7 +133,7 @@ struct GradedCase
     const char* m_name;
     SurfaceMesh m_surface;
     double m_cell;
-    int m_levels;  // that are used, of three
+    int m_levels;  // levels in use, of three
 };
 
 class GradedCage : public testing::TestWithParam<GradedCase>
@@ -170,7 +170,7 @@ TEST(GradedCage, AlignedBoxGivesTheBox)
     EXPECT_EQ(cage.m_report.m_levels, 0);
 }
 
-// Four and eight cells across: the whole box is thin.
+// Four and eight cells across: the whole box counts as thin.
 TEST(GradedCage, HalvesPartsThinnerThanRequested)
 {
     const SurfaceMesh surface = boxSurface({0, 0, 0}, {2, 2, 1});
@@ -224,7 +224,7 @@ TEST(GradedCage, MeasuresFilledFractions)
     EXPECT_EQ(*std::max_element(cage.m_filled.begin(), cage.m_filled.end()), 1);
 }
 
-// Of what overlaps, and of what is open, the samples tell the volume.
+// For overlapping and for open surfaces the volume comes from samples.
 TEST(GradedCage, CountsOverlapsOnceAndClosesHoles)
 {
     const SurfaceMesh block = boxSurface({0, 0, 0}, {1, 1, 1});
@@ -237,7 +237,7 @@ TEST(GradedCage, CountsOverlapsOnceAndClosesHoles)
     const Cage open = makeCage(without(boxSurface({0, 0, 0}, {1, 1, 0.15}), 4, 6), settings);
     EXPECT_EQ(open.m_report.m_openEdges, 4);
     EXPECT_GT(open.m_report.m_levels, 0);
-    EXPECT_NEAR(open.m_report.m_surfaceVolume, 0.15, 0.004);  // the plate cuts all elements alike
+    EXPECT_NEAR(open.m_report.m_surfaceVolume, 0.15, 0.004);  // the plate cuts all elements equally
 }
 
 TEST(GradedCage, StopsAtTheLevelLimit)
@@ -252,7 +252,7 @@ TEST(GradedCage, StopsAtTheLevelLimit)
     }
 }
 
-// Along the lattice two cells part two sides; along no axis as many as four.
+// Along the lattice two cells separate two faces; in an oblique direction up to four are needed.
 TEST(GradedCage, SeparatesSheetsIfItResolvesTheGap)
 {
     EXPECT_EQ(makeCage(twoPlates(), withCell(0.3)).m_mesh.componentCount(), 1);
@@ -260,10 +260,10 @@ TEST(GradedCage, SeparatesSheetsIfItResolvesTheGap)
     EXPECT_EQ(makeCage(tilted(twoPlates()), withCell(0.3)).m_mesh.componentCount(), 1);
     EXPECT_EQ(makeCage(tilted(twoPlates()), graded(0.15, 3.5, 3)).m_mesh.componentCount(), 2);
     const Cage glued = makeCage(twoPlates(), graded(0.3, 2, 2));
-    EXPECT_EQ(glued.m_mesh.componentCount(), 1);  // cells of 0.075 m: the gap is one and a third across
+    EXPECT_EQ(glued.m_mesh.componentCount(), 1);  // cells of 0.075 m: the gap is 4/3 cells across
 }
 
-// A gap that cannot be resolved is not halved for.
+// No elements are halved for a gap that cannot be resolved.
 TEST(GradedCage, LeavesNarrowGapsAlone)
 {
     const SurfaceMesh low = boxSurface({0, 0, 0}, {1, 1, 1});
@@ -274,10 +274,10 @@ TEST(GradedCage, LeavesNarrowGapsAlone)
     EXPECT_EQ(parted.m_mesh.componentCount(), 2);
 }
 
-// Boxes and plates come in whole layers, and what is of one thickness is halved all at once.
+// Boxes and plates have whole layers, and parts of equal thickness are halved all at once.
 TEST(GradedCage, ComesNearAWantedNumber)
 {
-    // The last is thinner than any level: what is wanted there becomes less with the levels.
+    // The fin is thinner than any level: its target size falls with the levels.
     const SurfaceMesh fin = joined(boxSurface({0, 0, 0}, {1, 1, 1}), boxSurface({0.9, 0, 0.5}, {2, 1, 0.502}));
     const SurfaceMesh surfaces[] = {blockWithRod(), tilted(twoPlates()), torusSurface(1, 0.2, 24),
                                     without(boxSurface({0, 0, 0}, {1, 1, 0.3}), 0, 2), tilted(fin)};
@@ -299,7 +299,7 @@ TEST(GradedCage, IsTheSameOnEveryCallAndAtEveryScale)
 {
     const SurfaceMesh surface = tilted(blockWithRod());
     SurfaceMesh larger = surface;
-    for (Vec3& x : larger.m_vertices) x *= 1024;  // a power of two: no rounding differs
+    for (Vec3& x : larger.m_vertices) x *= 1024;  // a power of two keeps the rounding
     CageSettings settings = graded(0);
     settings.m_targetTets = 1000;
     const Cage a = makeCage(surface, settings), b = makeCage(surface, settings);
@@ -339,7 +339,7 @@ TEST(GradedCage, IsUniformUnlessGradingIsRequested)
     EXPECT_EQ(cage.m_mesh.tets(), same.m_mesh.tets());
     EXPECT_EQ(cage.m_report.m_levels, 0);
     EXPECT_EQ(cage.m_report.m_qualityBound, 0.8399);
-    EXPECT_EQ(cage.m_mesh.tetCount(), 436);  // as it was before there was grading
+    EXPECT_EQ(cage.m_mesh.tetCount(), 436);  // the count from before grading existed
     EXPECT_EQ(cage.m_report.m_smallestCell, 0.25);
     EXPECT_EQ(cage.m_report.m_largestCell, 0.25);
     EXPECT_EQ(cage.m_report.m_cellsAcross, 0);
@@ -361,7 +361,7 @@ TEST(GradedCage, RejectsSettings)
     expectRejected([&] { makeCage(rod, few); },
                    {"graded by up to 3 levels", "at least 1001", "[1, 1000]", "fewer m_mostLevels", "raise m_maxTets"});
     few = graded(0.25, 8, 6);
-    few.m_maxTets = 3000;  // tets are split far beyond that before any is kept
+    few.m_maxTets = 3000;  // far more tets are bisected before the filled ones are selected
     expectRejected([&] { makeCage(rod, few); }, {"graded by up to 6 levels", "[1, 3000]"});
 }
 

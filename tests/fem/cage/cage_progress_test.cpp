@@ -15,7 +15,7 @@ namespace
 struct ProgressCase
 {
     const char* m_name;
-    double m_cellSize, m_snap, m_cellsAcross;  // a size of 0: by the number of elements
+    double m_cellSize, m_snap, m_cellsAcross;  // a cell size of 0: by the number of elements
 };
 
 class CageProgressTest : public testing::TestWithParam<ProgressCase>
@@ -49,15 +49,15 @@ TEST_P(CageProgressTest, RisesFromZeroToOne)
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     double longest = 0;
     for (std::size_t k = 1; k < shares.size(); ++k) longest = std::max(longest, shares[k] - shares[k - 1]);
-    EXPECT_LT(longest, 0.45) << "no stage is silent for most of the way";
+    EXPECT_LT(longest, 0.45) << "largest gap between reports";
 
     const Cage same = makeCage(m_ball, settings());
     ASSERT_EQ(cage.m_mesh.tetCount(), same.m_mesh.tetCount());
     EXPECT_EQ(cage.m_mesh.tets(), same.m_mesh.tets());
-    EXPECT_EQ(cage.m_filled, same.m_filled) << "who listens changes nothing";
+    EXPECT_EQ(cage.m_filled, same.m_filled) << "a progress callback does not change the cage";
 }
 
-// Wherever it is asked, it says no more after that.
+// After a cancellation at any call, no further progress is reported.
 TEST_P(CageProgressTest, CanBeCancelledAtAnyTime)
 {
     int words = 0;

@@ -24,7 +24,7 @@ TEST(CageInput, RejectsCellSizesOutOfRange)
     expectRejected([&] { makeCage(ball, withCell(-1)); }, {"cell size is -1 m"});
     expectRejected([&] { makeCage(ball, withCell(2.5)); }, {"cell size is 2.5 m", ", 2] m", "longest side"});
     expectRejected([&] { makeCage(ball, withCell(std::numeric_limits<double>::infinity())); }, {"cell size is inf m"});
-    // 100^3 cubes, half of them filled: within what the lattice may have, but too many elements.
+    // 100^3 cubes, half of them filled: within the lattice's limit, but too many elements.
     expectRejected([&] { makeCage(ball, withCell(0.02)); }, {"cell size of 0.02 m", "at least 20000", "[1, 200000]",
                                                              "use larger cells (0.0", "raise m_maxTets"});
 }
@@ -35,12 +35,12 @@ TEST(CageInput, AcceptsTheCellSizeItSuggests)
     settings.m_maxTets = 1000;
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 1, 1});
     expectRejected([&] { makeCage(box, settings); },
-                   {"0.2002 m is sure to fit"});  // five cubes a side, and a thousandth
+                   {"0.2002 m is sure to fit"});  // five cubes a side, and a thousandth of slack
     settings.m_cellSize = 0.2002;
     EXPECT_EQ(makeCage(box, settings).m_mesh.tetCount(), 625);
     settings.m_maxTets = 624;
     expectRejected([&] { makeCage(box, settings); }, {"at least 625 elements", "[1, 624]"});
-    settings.m_cellSize = 0.25;  // aligned: the outer elements are known to be kept only once they are sampled
+    settings.m_cellSize = 0.25;  // aligned: outer elements are known to be kept only after sampling
     settings.m_maxTets = 319;
     expectRejected([&] { makeCage(box, settings); }, {"at least 320 elements", "[1, 319]"});
 }
@@ -105,7 +105,7 @@ TEST(CageInput, RejectsInvalidTriangleSoups)
         {"1.7320508", "1000000001 m", "1e-07", "nearer to the origin"});
 }
 
-// Where three triangles meet nobody can say which of them is the wrong way round.
+// At an edge of three triangles the wrongly oriented one is not determined.
 TEST(CageInput, RejectsUnorientableTriangles)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);
@@ -134,7 +134,7 @@ TEST(CageInput, RejectsSurfacesWithoutInside)
     bowl.m_triangles = cap;
     expectRejected([&] { makeCage(bowl, withCell(0.05)); }, {"no inside", "wide open", "0.9", "close its holes"});
 
-    // Both sides of a bent sheet: closed, but nothing lies between them.
+    // Both sides of a bent sheet: closed, but without volume.
     SurfaceMesh strip;
     strip.m_vertices = {{0, 0, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}, {2, 0, 0}, {2, 1, 0}};
     strip.m_triangles = {{0, 2, 1}, {1, 2, 3}, {2, 5, 3}, {2, 4, 5}};

@@ -32,7 +32,7 @@ TEST(CageReport, MatchesAnAlignedBox)
     EXPECT_EQ(report.m_tets, 8 * 6 * 4 * 5);
     EXPECT_EQ(report.m_nodes, 9 * 7 * 5);
     EXPECT_EQ(report.m_cellSize, 0.25);
-    EXPECT_EQ(report.m_qualityHistogram[8], 8 * 6 * 4 * 4);  // those that cut off corners
+    EXPECT_EQ(report.m_qualityHistogram[8], 8 * 6 * 4 * 4);  // the corner tets of the cubes
     EXPECT_EQ(report.m_qualityHistogram[9], 8 * 6 * 4);      // the middle ones
     EXPECT_GE(report.m_leastQuality, report.m_qualityBound);
     EXPECT_NEAR(report.m_leastQuality, report.m_qualityBound, 1e-4);
@@ -72,7 +72,7 @@ TEST(CageReport, TurnsTrianglesThatDisagree)
     EXPECT_EQ(cage.m_mesh.tets(), expected.m_mesh.tets());
 }
 
-// The side of the many counts, even where that is the inside: a cavity stays one.
+// The majority's orientation is kept, even if it points inwards: a cavity stays a cavity.
 TEST(CageReport, OrientsTheMinorityToTheMajority)
 {
     SurfaceMesh cavity = flipped(sphereSurface(0.6, {}, 2));
@@ -87,7 +87,7 @@ TEST(CageReport, OrientsTheMinorityToTheMajority)
 TEST(CageReport, LeavesDuplicatesOutAndCountsTrianglesWithoutArea)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 2);
-    SurfaceMesh doubled = joined(ball, ball);  // every triangle a second time, with vertices of its own
+    SurfaceMesh doubled = joined(ball, ball);  // each triangle twice, with vertices of its own
     doubled.m_triangles.push_back({7, 7, 9});
     const Cage cage = makeCage(doubled, withCell(0.25));
     EXPECT_EQ(cage.m_report.m_duplicates, 320);
@@ -95,7 +95,7 @@ TEST(CageReport, LeavesDuplicatesOutAndCountsTrianglesWithoutArea)
     EXPECT_FALSE(cage.m_report.m_selfIntersecting);
     EXPECT_EQ(cage.m_report.m_openEdges, 0);
     EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(ball), 1e-13);
-    for (std::size_t i = 0; i < ball.m_vertices.size(); ++i)  // the second copies hang as the first do
+    for (std::size_t i = 0; i < ball.m_vertices.size(); ++i)  // the second copies are connected as the first ones
         EXPECT_EQ(cage.m_embedding[i].m_weights, cage.m_embedding[i + ball.m_vertices.size()].m_weights);
 }
 

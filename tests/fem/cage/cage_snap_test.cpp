@@ -23,7 +23,7 @@ CageSettings snapping(double cellSize, double share = 1)
     return settings;
 }
 
-/// The least barycentric weight of the middle of a boundary triangle in the element of the lattice that holds it best.
+/// The minimum barycentric weight of a boundary triangle's centre in the lattice element that contains it best.
 double deepestOutside(const Cage& cage, const Cage& lattice)
 {
     const std::vector<Vec3>& X = lattice.m_mesh.restPositions();
@@ -45,7 +45,7 @@ double deepestOutside(const Cage& cage, const Cage& lattice)
     return deepest;
 }
 
-/// What snapping promises, whatever the surface.
+/// Invariants of snapping, for any surface.
 void expectSnapPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh& surface)
 {
     const CageReport& report = cage.m_report;
@@ -77,7 +77,7 @@ void expectSnapPromises(const Cage& cage, const Cage& lattice, const SurfaceMesh
     EXPECT_LT(farthest, 1e-11 * report.m_cellSize);  // up to some 10,000 cells from the origin
 }
 
-/// A plate through another, along no axis.
+/// Two crossed plates in an oblique orientation.
 SurfaceMesh tiltedCross()
 {
     SurfaceMesh cross = joined(boxSurface({0, 0, 0}, {1, 1, 0.15}), boxSurface({0.2, 0.3, -0.8}, {0.35, 0.6, 0.9}));
@@ -95,7 +95,7 @@ struct SnapCase
     const char* m_name;
     SurfaceMesh m_surface;
     double m_cell;
-    double m_maxRatio;  // cage over solid; a tenth above what it was when this was written
+    double m_maxRatio;  // cage volume over solid volume; a tenth above the measured one
 };
 
 class SnappedCage : public testing::TestWithParam<SnapCase>
@@ -157,7 +157,7 @@ TEST(SnappedCage, StaysOutOfTheHolesOfAnOpenSurface)
     EXPECT_GE(cage.m_report.m_leastQuality, 0.3);
 }
 
-// A slit in the wall of a cavity: what closes it bulges into the cavity, across the way to its rim.
+// A slit in the wall of a cavity: the surface that closes it bulges into the cavity, across the path to its rim.
 TEST(SnappedCage, StaysOutOfASlit)
 {
     SurfaceMesh cavity = flipped(sphereSurface(1, {}, 3));
@@ -180,15 +180,15 @@ TEST(SnappedCage, StaysOutOfASlit)
     for (const int i : cage.m_mesh.surfaceNodes())
     {
         const Vec3& x = cage.m_mesh.restPositions()[i];
-        const bool onSurface = norm(tree.nearest(x) - x) < 1e-6;  // where the winding number jumps
+        const bool onSurface = norm(tree.nearest(x) - x) < 1e-6;  // the winding number jumps there
         const bool hasMoved = norm(x - lattice.m_mesh.restPositions()[i]) > 0;
         if (hasMoved && !onSurface) most = std::max(most, winding.at(x));
     }
-    EXPECT_LT(most, 0.501);  // it is about another origin there
+    EXPECT_LT(most, 0.501);  // snapping sums about another origin
     EXPECT_GT(most, 0.3);
 }
 
-// Half of the ball's volume lies in elements that moved: their fractions, measured anew, make up the ball.
+// Half of the ball's volume is in moved elements: their newly measured fractions sum to the ball's volume.
 TEST(SnappedCage, MeasuresFilledFractionsAnew)
 {
     const SurfaceMesh ball = sphereSurface(1, {}, 3);

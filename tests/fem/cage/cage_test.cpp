@@ -22,7 +22,7 @@ double filledVolume(const Cage& cage)
     return sum;
 }
 
-/// What every cage promises, whatever its surface.
+/// Invariants of each cage, for any surface.
 void expectPromises(const Cage& cage, const SurfaceMesh& surface, const CageSettings& settings)
 {
     EXPECT_EQ(cage.m_mesh.turnedCount(), 0);
@@ -73,7 +73,7 @@ TEST(Cage, AlignedBoxGivesTheBox)
     EXPECT_EQ(cage.m_report.m_openEdges, 0);
 }
 
-// The notch's sides lie on sides of lattice cubes: the cubes beyond are touched, but hold nothing.
+// The notch's faces coincide with faces of lattice cubes: the cubes beyond are in contact, but empty.
 TEST(Cage, AlignedAngleLeavesItsNotchEmpty)
 {
     SurfaceMesh surface;  // (0,0) (2,0) (2,1) (1,1) (1,2) (0,2), from z = 0 to 1
@@ -108,7 +108,7 @@ TEST(Cage, IsCentredOnTheBoundingBox)
     EXPECT_NEAR(cage.m_report.m_surfaceVolume, 1, 1e-12);
 }
 
-// Filled fractions of a half space by hand: a box whose top cuts the upper layer of cubes at 3/5 of its height.
+// Filled fractions of a half space in closed form: the box's top cuts the upper layer of cubes at 3/5 of its height.
 TEST(Cage, MeasuresFilledFractions)
 {
     const SurfaceMesh surface = boxSurface({0, 0, 0}, {4, 4, 1.2});
@@ -120,11 +120,11 @@ TEST(Cage, MeasuresFilledFractions)
     ASSERT_EQ(cage.m_mesh.tetCount(), 4 * 4 * 2 * 5);
     for (int e = 0; e < cage.m_mesh.tetCount(); ++e)
     {
-        // The share of a cube's tet within 0.6 of the layer's inner side: a corner tet with its base there holds
-        // 1 - 0.4^3, one with its tip there 0.6^3, and the middle tet what the four leave of 0.6.
+        // The share of a cube's tets within 0.6 of the layer's inner side: 1 - 0.4^3 of a corner tet with its base
+        // there, 0.6^3 of one with its tip there, and for the middle tet the rest of 0.6.
         const double corner = 1 - 0.4 * 0.4 * 0.4, tip = 0.6 * 0.6 * 0.6, middle = 3 * (0.6 - (corner + tip) / 3);
         const double filled = cage.m_filled[e];
-        // 4096 spread samples: half the deviation of random ones, 0.008.
+        // 4096 low-discrepancy samples: half the deviation of random ones, 0.008.
         EXPECT_LT(std::min({std::abs(filled - corner), std::abs(filled - tip), std::abs(filled - middle)}), 0.004) << e;
     }
     EXPECT_NEAR(cage.m_massScale, 1, 0.002);
@@ -133,7 +133,7 @@ TEST(Cage, MeasuresFilledFractions)
 struct CellsAcross
 {
     int m_cells;
-    double m_volumeTolerance;  // of the mass scale: the floor's share falls with the cell size
+    double m_volumeTolerance;  // of the mass scale: the fill floor's share falls with the cell size
 };
 
 class CageOfSphere : public testing::TestWithParam<CellsAcross>
@@ -144,7 +144,7 @@ TEST_P(CageOfSphere, HoldsItsVolume)
 {
     const SurfaceMesh surface = sphereSurface(0.5, {1, 2, 3}, 4);
     CageSettings settings = withCell(1.0 / GetParam().m_cells);
-    settings.m_fillFloor = 0.05;  // so that the samples are seen, not the floor
+    settings.m_fillFloor = 0.05;  // so that samples dominate the floor
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
     EXPECT_NEAR(cage.m_report.m_surfaceVolume, signedVolume(surface), 1e-14);
@@ -203,7 +203,7 @@ TEST(Cage, CountsOverlapsOnce)
     EXPECT_TRUE(cage.m_report.m_selfIntersecting);
     EXPECT_EQ(cage.m_report.m_openEdges, 0);
     const double both = 8.0 / 3 * kPi - 5.0 / 12 * kPi;
-    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.005 * both);  // facets miss 0.2 %, sampling less
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.005 * both);  // facets lose 0.2 %, sampling less
 }
 
 TEST(Cage, CountsComponentsOfBothOrientations)
@@ -216,7 +216,7 @@ TEST(Cage, CountsComponentsOfBothOrientations)
     EXPECT_FALSE(cage.m_report.m_insideOut);
     EXPECT_EQ(cage.m_mesh.componentCount(), 2);
     const double both = 4.0 / 3 * kPi * 1.125;
-    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.015 * both);  // facets miss 0.8 %
+    EXPECT_NEAR(cage.m_report.m_surfaceVolume, both, 0.015 * both);  // facets lose 0.8 %
 }
 
 TEST(Cage, ClosesSmallHoles)
@@ -238,7 +238,7 @@ TEST(Cage, ClosesAnOpenBox)
     const Cage cage = makeCage(surface, settings);
     expectPromises(cage, surface, settings);
     EXPECT_EQ(cage.m_report.m_openEdges, 4);
-    // A flat hole is closed by its plane: there the missing side fills half of the view.
+    // A flat hole is closed by its plane: from there the missing face covers half of the solid angle.
     EXPECT_NEAR(cage.m_report.m_surfaceVolume, 1, 1e-10);  // a sum of 320,000 samples
     EXPECT_EQ(cage.m_mesh.tetCount(), 10 * 10 * 10 * 5);
 }
@@ -273,7 +273,7 @@ TEST(Cage, HoldsAPlateThinnerThanACell)
 
 TEST(Cage, HoldsAFinWithoutThickness)
 {
-    // Both sides of a square that stands out from a box, in a plane of the lattice: it enters no element.
+    // Both sides of a square fin on a box, in a plane of the lattice: it enters no element.
     SurfaceMesh fin;
     fin.m_vertices = {{1, 0, 0.5}, {2, 0, 0.5}, {2, 1, 0.5}, {1, 1, 0.5}};
     fin.m_triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
@@ -303,7 +303,7 @@ TEST(Cage, IsTheSameOnEveryCallAndAtEveryScale)
     SurfaceMesh larger = surface;
     for (Vec3& x : larger.m_vertices) x *= 1024;
     const Cage a = makeCage(surface, withCell(0.25)), b = makeCage(surface, withCell(0.25));
-    const Cage c = makeCage(larger, withCell(256));  // powers of two: no rounding differs
+    const Cage c = makeCage(larger, withCell(256));  // powers of two keep the rounding
     EXPECT_EQ(a.m_filled, b.m_filled);
     EXPECT_EQ(a.m_mesh.tets(), b.m_mesh.tets());
     EXPECT_EQ(a.m_filled, c.m_filled);

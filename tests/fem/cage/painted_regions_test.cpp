@@ -40,7 +40,7 @@ TEST(CagePaintedRegions, AreThoseOfMostVerticesAndOfTheLowestLabelOfSeveral)
     EXPECT_EQ(paintedRegions(mesh, surface, embedding), (std::vector<int>{9, -1, 7, 7, 7}));
 }
 
-// Two legs of 10 m, .1 m apart, that meet at their feet: one is painted at its top, the other at its foot.
+// Two legs of 10 m, .1 m apart, joined at their feet: one is painted at its top, the other at its foot.
 TEST(CagePaintedRegions, ComeThroughTheMeshAndNotAcrossAGap)
 {
     const TetMesh block = makeBox({1.1, 1, 10}, {11, 2, 20});
@@ -74,12 +74,12 @@ TEST(CagePaintedRegions, ComeThroughTheMeshAndNotAcrossAGap)
     const SurfaceMesh surface = pointsIn({elementAt({.25, .5, 10}), elementAt({.85, .5, 0})}, {1, 2}, embedding);
     const std::vector<int> regions = paintedRegions(legs, surface, embedding);
     EXPECT_EQ(regions[elementAt({.45, .5, 9.5})], 1);
-    EXPECT_EQ(regions[elementAt({.65, .5, 9.5})], 2);  // .2 m from the one, 9 m from the other
+    EXPECT_EQ(regions[elementAt({.65, .5, 9.5})], 2);  // .2 m from the first paint, 9 m from the other
     EXPECT_EQ(regions[elementAt({.25, .5, 7})], 1);
     EXPECT_EQ(regions[elementAt({.25, .5, 3})], 2);
 }
 
-// A ball, one half painted in each colour: what lies deep inside follows the surface.
+// A ball with its halves painted in two colours: inner elements follow the surface.
 TEST(CagePaintedRegions, FollowTheSurfaceOfACage)
 {
     SurfaceMesh ball = sphereSurface(1, {0, 0, 0}, 3);

@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-/// What is thinner than 0.5 m, in pieces of at most 0.1 m.
+/// Parts thinner than 0.5 m, from fragments of at most 0.1 m.
 std::vector<ThinPart> partsOf(const SurfaceMesh& surface)
 {
     const TriangleTree tree(surface.m_vertices, surface.m_triangles);
@@ -49,7 +49,7 @@ TEST(ThinParts, IncludeTheFacesOfAPlate)
 {
     const std::vector<ThinPart> parts = partsOf(boxSurface({0, 0, 0}, {1, 1, 0.1}));
     const Found solid = found(parts, false);
-    EXPECT_NEAR(solid.m_area, 2, 1e-12);  // not the rim, which is 1 m across
+    EXPECT_NEAR(solid.m_area, 2, 1e-12);  // without the rim, which is 1 m across
     EXPECT_NEAR(solid.m_min, 0.1, 1e-12);
     EXPECT_NEAR(solid.m_max, 0.1, 1e-12);
     EXPECT_EQ(found(parts, true).m_area, 0);
@@ -77,7 +77,7 @@ TEST(ThinParts, IncludeTheEdgeOfAWedge)
         const double flat = 0.3 * middle.x, tilted = flat * std::sqrt(1.09);
         worst = std::max(worst, std::min(std::abs(norm(part.m_across) - flat), std::abs(norm(part.m_across) - tilted)));
     }
-    EXPECT_LT(worst, 0.3 * 0.02);  // small pieces take the word of others
+    EXPECT_LT(worst, 0.3 * 0.02);  // small fragments adopt their neighbours' thickness
     EXPECT_GT(found(parts, false).m_area, 1.8);
 }
 
@@ -96,13 +96,13 @@ TEST(ThinParts, AreGapsBetweenTwoSides)
     }
 }
 
-// Walls within the solid, of pieces that overlap, bound nothing.
+// Inner walls of overlapping components bound no solid.
 TEST(ThinParts, ExcludeOverlapsOfSolids)
 {
     EXPECT_TRUE(partsOf(joined(boxSurface({0, 0, 0}, {1, 1, 1}), boxSurface({0.8, 0, 0}, {1.8, 1, 1}))).empty());
 }
 
-/// Every triangle in four.
+/// Splits each triangle into four.
 SurfaceMesh split(const SurfaceMesh& surface)
 {
     SurfaceMesh fine;
@@ -117,7 +117,7 @@ SurfaceMesh split(const SurfaceMesh& surface)
     return fine;
 }
 
-// The rim's triangles share blocks with the faces', and are 1 m across.
+// The rim's triangles share blocks with those of the faces, and measure 1 m across.
 TEST(ThinParts, ExcludeTheRimOfAFinePlate)
 {
     SurfaceMesh plate = boxSurface({0, 0, 0}, {1, 1, 0.02});

@@ -21,7 +21,7 @@ Vec3 anywhere(std::mt19937& generator, double size)
     return p;
 }
 
-// Points of all places one after the other: nearly all lines pass the surface, some several times.
+// Evaluates random points in turn: nearly all rays cross the surface, some several times.
 void expectWholeNumbers(const SurfaceMesh& surface, double size)
 {
     const SurfaceWinding winding(surface.m_vertices, surface.m_triangles, true);
@@ -47,7 +47,7 @@ TEST(WindingNear, CountsOverlappingComponentsTwice)
     expectWholeNumbers(joined(sphereSurface(1, {}, 2), sphereSurface(1, {0.7, 0.1, 0.2}, 2)), 2);
 }
 
-// Lines along a lattice pass boxes through their edges, diagonals and corners.
+// Rays along a lattice cross boxes at their edges, diagonals and corners.
 TEST(WindingNear, PassesEdgesAndCornersOnce)
 {
     const SurfaceMesh box = boxSurface({-1, -1, -1}, {1, 1, 1});

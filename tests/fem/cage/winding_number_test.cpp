@@ -34,14 +34,14 @@ TEST(WindingNumber, IsOneSixthForACubeFaceSeenFromTheCentre)
     EXPECT_NEAR(windingAt(side, {0, 0, 0}), 1.0 / 6, 1e-15);
 }
 
-// The moments of a closed surface are N = 0 and C = V times the identity, whose two terms cancel.
+// The moments of a closed surface are N = 0 and C = V I, and their two terms cancel.
 TEST(WindingNumber, VanishesForAFarBoxByItsMoments)
 {
     const SurfaceMesh box = boxSurface({0, 0, 0}, {1, 2, 3});
     EXPECT_NEAR(windingAt(box, {20, -10, 10}), 0, 1e-17);  // either term alone: 1e-4
 }
 
-// A tube of many long sides, all of which are near to its inside: the product of their complex numbers would come to 0.
+// A tube of many long faces, all near to its inside: the product of their complex numbers would underflow.
 TEST(WindingNumber, DoesNotUnderflowForManyThinTriangles)
 {
     constexpr int kSides = 600;
@@ -70,8 +70,8 @@ TEST(WindingNumber, IsZeroForAnEmptySurface)
     EXPECT_EQ(windingAt(SurfaceMesh(), {1, 2, 3}), 0);
 }
 
-// The moments stand for what is farther than twice its radius; the error must stay far from the threshold of 1/2. One
-// patch of the torus is compared with the sum over its triangles, each on its own, and the whole with the integer.
+// Moments replace triangles farther away than twice the cluster's radius; the error must stay far from the threshold of
+// 1/2. One patch of the torus is compared with the direct sum over its triangles, and the whole torus with the integer.
 TEST(WindingNumber, ApproximatesFarTriangles)
 {
     const SurfaceMesh torus = torusSurface(1, 0.4, 100);  // 10,000 triangles
@@ -106,7 +106,7 @@ TEST(TriangleOverlap, DetectsOverlapWithABox)
     EXPECT_TRUE(triangleMeetsBox(through, low, high, 0));
     const TriangleCorners pastTheCorner = {Vec3{1.9, 0, 0}, Vec3{0, 1.9, 0}, Vec3{0, 0, 5}};
     EXPECT_TRUE(triangleMeetsBox(pastTheCorner, low, high, 0));
-    // One side passes the box's edge x = y = 1 at x + y = 2.1, in a plane through the box: only their cross product
+    // One edge passes the box's edge x = y = 1 at x + y = 2.1, in a plane through the box: only their cross product
     // separates.
     const TriangleCorners pastAnEdge = {Vec3{2.3, -0.2, 0.9}, Vec3{-0.2, 2.3, 0.1}, Vec3{3, 3, 0.5}};
     EXPECT_FALSE(triangleMeetsBox(pastAnEdge, low, high, 0));
@@ -137,7 +137,7 @@ TEST(TriangleOverlap, SlackDecidesBoundaryContact)
     const TriangleCorners atItsTip = {Vec3{0, 0, 1}, Vec3{1, 0, 2}, Vec3{0, 1, 2}};
     EXPECT_TRUE(triangleMeetsTet(atItsTip, tet, 1e-9));
     EXPECT_FALSE(triangleMeetsTet(atItsTip, tet, -1e-9));
-    // A spike that stands on the slope x + y + z = 1: only the slope's normal separates.
+    // A spike on the plane x + y + z = 1: only that plane's normal separates.
     const TriangleCorners spike = {Vec3{0.36, 0.36, 0.36}, Vec3{1.3, 1.4, 1.3}, Vec3{2.5, 2.4, 2.3}};
     EXPECT_FALSE(triangleMeetsTet(spike, tet, 1e-9));
     EXPECT_TRUE(triangleMeetsTet(spike, tet, 0.08 / std::sqrt(3.0) + 1e-9));

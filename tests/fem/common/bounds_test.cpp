@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bounds take what single precision makes of them.
+//
+// Bounds accept values after rounding to single precision.
 #include "fem/common/bounds.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ TEST(Bounds, AreNotWiderThanTheSlack)
     EXPECT_LE(kBoundSlack, 9 * kRelativeSpacing);
     EXPECT_FALSE(isWithin(1e-6 * (1 - 2 * kBoundSlack), 1e-6, 1));
     EXPECT_FALSE(isWithin(1 + 2 * kBoundSlack, 1e-6, 1));
-    EXPECT_FALSE(isWithin(-1e-300, 0, 1)) << "0 is the same in every precision";
+    EXPECT_FALSE(isWithin(-1e-300, 0, 1)) << "0 is exact in both precisions";
     EXPECT_FALSE(isWithin(std::numeric_limits<double>::quiet_NaN(), 0, 1));
     EXPECT_TRUE(isWithin(std::numeric_limits<double>::infinity(), 0, std::numeric_limits<double>::infinity()));
 }

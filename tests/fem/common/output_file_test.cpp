@@ -83,7 +83,7 @@ TEST(OutputFile, UnfinishedFilesCanBeRemovedByASignalHandler)
     const TemporaryFolder folder;
     writeOutputFile(folder.path("whole"), "kept");
     std::vector<std::unique_ptr<OutputFile>> files;
-    for (int k = 0; k < 70; ++k)  // six more than are noted
+    for (int k = 0; k < 70; ++k)  // six more than the list holds
         files.push_back(std::make_unique<OutputFile>(folder.path(std::to_string(k))));
     files.front()->commit();
     removeUnfinishedFiles();
@@ -91,7 +91,7 @@ TEST(OutputFile, UnfinishedFilesCanBeRemovedByASignalHandler)
     EXPECT_THAT(folder.names(), IsSupersetOf({"0", "whole"}));
     files.clear();
     EXPECT_THAT(folder.names(), UnorderedElementsAre("0", "whole"));
-    for (int k = 0; k < 200; ++k) OutputFile(folder.path("often"));  // places are given back
+    for (int k = 0; k < 200; ++k) OutputFile(folder.path("often"));  // entries are reused
     const OutputFile last(folder.path("last"));
     removeUnfinishedFiles();
     EXPECT_THAT(folder.names(), UnorderedElementsAre("0", "whole"));

@@ -9,7 +9,8 @@
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
-// Bodies with more contacts than ContactSettings::m_denseLimit, whose rows are swept all at once.
+// Bodies with more contacts than ContactSettings::m_denseLimit, whose rows are solved by accelerated projected
+// gradient.
 namespace bullet_fem
 {
 namespace
@@ -17,7 +18,7 @@ namespace
 
 constexpr double kStandardGravity = 9.81;
 
-/// A slab of 1 x 1 x 0.125 m with 289 nodes on a floor, at rest a step ago, and contacts of all of them.
+/// A slab of 1 x 1 x 0.125 m with 289 nodes, at rest on a floor, with contacts at all lower nodes.
 class SlabOnFloor
 {
 public:
@@ -72,7 +73,7 @@ private:
     ContactSolver m_solver;
 };
 
-// The impulses of one node by one, and of all at once, solve the same problem.
+// Gauss-Seidel sweeps and accelerated projected gradient solve one problem to equal impulses.
 TEST(AcceleratedProjectedGradient, StopsASlabAsGaussSeidelSweepsDo)
 {
     SlabOnFloor atOnce(0), inTurn(SlabOnFloor::kLower);
@@ -86,7 +87,7 @@ TEST(AcceleratedProjectedGradient, StopsASlabAsGaussSeidelSweepsDo)
     EXPECT_NEAR(atOnce.support(), inTurn.support(), 1e-3 * inTurn.support());
 }
 
-// They end when nothing closes any more.
+// Iterations stop when no gap closes any more.
 TEST(AcceleratedProjectedGradient, StopsEarlyIfNothingCloses)
 {
     SlabOnFloor slab(0);
@@ -100,7 +101,7 @@ TEST(AcceleratedProjectedGradient, StopsEarlyIfNothingCloses)
     EXPECT_LT(sweeps, 10);
 }
 
-// How far a body yields is estimated from some points: fixed ones among them say nothing of the others.
+// The body's compliance norm is estimated at some points: fixed points among them do not count.
 TEST(AcceleratedProjectedGradient, HoldsABodyWithFixedNodes)
 {
     SlabOnFloor slab(0);

@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr double kSingle = 1e-5;    // 6e-8 of the factor's single precision times a condition of some 100
-constexpr double kIterated = 1e-3;  // what columns on the low-memory path are iterated to
+constexpr double kIterated = 1e-3;  // tolerance of columns on the low-memory path
 
 bool sameBits(const Mat3& a, const Mat3& b)
 {
@@ -100,7 +100,7 @@ TEST_P(ComplianceCacheTest, FactorsItsBlocksBetweenNodes)
     }
 }
 
-// Of one set, the same for all who ask, until there is no room for it.
+// A factor is shared by all requests for its set, until the budget is exceeded.
 TEST_P(ComplianceCacheTest, KeepsFactorsWithinItsBudget)
 {
     ComplianceCache cache(m_model);
@@ -122,7 +122,7 @@ TEST_P(ComplianceCacheTest, ServesTheNodesThatItIsMadeFor)
 {
     const FactorInput& input = m_model->factorInput();
     const Eigen::MatrixXd inverse = constrained(denseRestSystem(m_model->shape(), input), input.m_fixed).inverse();
-    const std::vector<int> nodes = {21, 22, 25, 26, 37, 63};  // but for the last, inside
+    const std::vector<int> nodes = {21, 22, 25, 26, 37, 63};  // all inside but for the last
     ComplianceCache cache(m_model, nodes);
     cache.request({25, 63, 21, 22, 26, 37});
     for (int j : nodes)
@@ -161,7 +161,7 @@ TEST_P(ComplianceCacheTest, IsZeroForFixedNodes)
     EXPECT_EQ(zero, 56 * 56 - 40 * 40);
 }
 
-// One node at a time: room for two columns, so that each is thrown out soon and solved again, to the same bits.
+// One node at a time: the budget is two columns, so that each is evicted soon and solved again, bitwise equal.
 TEST_P(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
 {
     ComplianceCache all(m_model), small(m_model, 0);
@@ -174,7 +174,7 @@ TEST_P(ComplianceCacheTest, GivesTheSameNumbersAfterEviction)
         }
 }
 
-// Bodies that share a cache ask for different nodes in every step.
+// Bodies that share a cache request different nodes in each step.
 TEST_P(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
 {
     ComplianceCache cache(m_model), small(m_model, 0);
@@ -185,7 +185,7 @@ TEST_P(ComplianceCacheTest, SolvesEveryColumnOnceWithinItsBudget)
     EXPECT_EQ(small.solvedColumns(), 2 * static_cast<long>(m_surface.size()));
 }
 
-// The columns of one request never throw each other out, whatever was there before.
+// Columns of one request never evict each other, whatever the cache held before.
 TEST_P(ComplianceCacheTest, KeepsAllColumnsOfARequest)
 {
     ComplianceCache all(m_model), small(m_model, 0);
@@ -201,7 +201,7 @@ TEST_P(ComplianceCacheTest, KeepsAllColumnsOfARequest)
     }
 }
 
-// Room for ten columns, all taken; the request names the oldest of them before four new ones.
+// A budget of ten columns, all in use; the request names the oldest of them before four new ones.
 TEST_P(ComplianceCacheTest, DoesNotEvictRequestedColumns)
 {
     ComplianceCache cache(m_model, 0);
@@ -245,7 +245,7 @@ TEST_P(ComplianceCacheTest, DoesNotAllocateForRequestsNoLargerThanBefore)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// Whatever the body weighs: blocks scale as 1 / kg, and single precision keeps its digits.
+// For any mass: blocks scale as 1 / kg, and single precision keeps its digits.
 TEST_P(ComplianceCacheTest, ScalesWithTheMass)
 {
     const int a = m_surface[30], b = m_surface[50];
@@ -274,7 +274,7 @@ TEST_P(ComplianceCacheTest, IsZeroForAFullyFixedBody)
     EXPECT_TRUE(sameBits(cache.block(m_surface[0], m_surface[1]), Mat3()));
 }
 
-// A plate of 27 g that yields 1e-7 of its rigid motions: sweeps over a compliance that is not definite run away.
+// A plate of 27 g whose elastic compliance is 1e-7 of its rigid response: sweeps over an indefinite compliance diverge.
 TEST_P(ComplianceCacheTest, IsDefiniteForAStiffLightBody)
 {
     Material material = elasticMaterial(1e8, 0.3);

@@ -14,9 +14,8 @@ namespace bullet_fem
 namespace
 {
 
-/// A block of soft cubes of 1 m, side by side and on top of each other, squeezed by their
-/// velocities, without gravity; it falls on a floor, and on every cube of the top layer falls a column of balls that
-/// touch each other.
+/// A block of soft cubes of 1 m, in contact side by side and one above another, compressed by their velocities, without
+/// gravity; it falls on a floor, and a column of balls in contact falls on each cube of the top layer.
 class CubeBlock
 {
 public:
@@ -92,7 +91,7 @@ public:
     }
     std::size_t contacts() const { return m_problem.m_contacts.size(); }
 
-    /// The largest speed at which a ball comes nearer to the one below [m/s].
+    /// Maximum approach speed of a ball and the one below [m/s].
     double closingOfBalls() const
     {
         double largest = 0;
@@ -102,7 +101,7 @@ public:
         return largest;
     }
 
-    /// The largest difference of a body's velocities from those that its impulses make of its free motion [m/s].
+    /// Maximum difference between a body's velocities and the response of its free motion to its impulses [m/s].
     double largestLoss()
     {
         StepSettings settings;
@@ -154,7 +153,7 @@ private:
         return made;
     }
 
-    // Cubes meet node by node.
+    // Contacts of coincident nodes of neighbouring cubes.
     void addContacts()
     {
         const int step[3] = {1, kSide, kSide * kSide};
@@ -169,7 +168,7 @@ private:
     }
     void addFace(int body, int other, int rigidProxy, int axis, double side)
     {
-        const std::vector<Vec3>& rest = m_bodies[0]->m_state.m_x;  // whose corner is the origin
+        const std::vector<Vec3>& rest = m_bodies[0]->m_state.m_x;  // its corner is the origin
         for (int i = 0; i < static_cast<int>(rest.size()); ++i)
         {
             if (rest[i][axis] != side) continue;
@@ -226,12 +225,12 @@ TEST(CrowdSweeps, ConserveMomentumAndLeaveNothingClosing)
     EXPECT_LT(norm(change - block.impulseOfFloor()), 1e-6 * norm(change));
 }
 
-// Rounds that are far from the end solve the bodies loosely; what that leaves is solved for in the end.
+// Early outer iterations solve the bodies loosely; their residual is solved for in the last one.
 TEST(CrowdSweeps, GiveBodiesAllTheirImpulses)
 {
     CubeBlock block;
     block.solve(nullptr);
-    EXPECT_LT(block.largestLoss(), 1e-3) << "of changes of some m/s";
+    EXPECT_LT(block.largestLoss(), 1e-3) << "of velocity changes of some m/s";
 }
 
 }  // namespace

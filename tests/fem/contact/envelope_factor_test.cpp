@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-/// In [-1, 1).
+/// Uniform random numbers in [-1, 1).
 class Signed
 {
 public:
@@ -29,7 +29,7 @@ private:
     std::mt19937 m_generator{7};
 };
 
-/// A factor of J J^T, with J of so many columns, within an envelope.
+/// A factor of J J^T within an envelope; J has the given number of columns.
 class Within
 {
 public:
@@ -46,7 +46,7 @@ public:
                 m_W.block<3, 3>(3 * i, 3 * j).setZero();
                 m_W.block<3, 3>(3 * j, 3 * i).setZero();
             }
-        if (*std::max_element(first.begin(), first.end()) > 0) m_W.diagonal().array() += n;  // stays definite
+        if (*std::max_element(first.begin(), first.end()) > 0) m_W.diagonal().array() += n;  // keeps it definite
         for (int i = 0; i < rows; ++i) m_factor.addRow(first[i]);
         for (int i = 0; i < rows; ++i)
             for (int j = first[i]; j <= i; ++j)
@@ -102,17 +102,17 @@ TEST(EnvelopeFactor, OmitsHeldUnknowns)
             EXPECT_NEAR(left(i), 0, 1e-10);
 }
 
-// Twelve equations for five unknowns: what agrees is met, and nothing becomes large.
+// A system of 12 equations and rank 5: a consistent right-hand side is solved exactly, and no unknown grows large.
 TEST(EnvelopeFactor, LeavesDependentUnknownsAtZero)
 {
     Within c({0, 0, 0, 0}, 5);
     const Eigen::VectorXd b = c.m_W * c.vector(), x = c.solve(b);
     EXPECT_LT((c.m_W * x - b).norm(), 1e-9 * b.norm());
     EXPECT_EQ((x.array() == 0).count(), 7);
-    EXPECT_LT(c.solve(c.vector()).norm(), 1e3);  // and what contradicts itself
+    EXPECT_LT(c.solve(c.vector()).norm(), 1e3);  // an inconsistent right-hand side
 }
 
-// Single precision leaves some 1e-7 of a pivot that would be zero, and of others much more.
+// Single precision leaves about 1e-7 of a pivot that is zero exactly; other pivots are much larger.
 TEST(EnvelopeFactor, KnowsRoundingFromStiffness)
 {
     for (const double pivot : {1e-7, 1e-5})

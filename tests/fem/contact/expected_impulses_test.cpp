@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies whose free motion was solved with the impulses that contact was expected to make: expecting decides how a step
-// is solved, never what comes out.
+// Bodies whose free motion was solved with predicted contact impulses: the prediction changes the work of a step, never
+// its result.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/fem/step/stepping.h"
@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-// A soft cube in gravity, squeezed out of shape, comes down on a ball; contacts start with a guess.
+// A soft cube under gravity, deformed, falls on a ball; contacts start with an initial guess.
 class PredictedImpulses : public testing::Test
 {
 protected:
@@ -33,7 +33,7 @@ protected:
                 m_body.m_loads.m_force[i] = {0, 0, -9.81 * state.m_mass[i]};
             touchLowerFace(0, 0.5);
             for (ContactPoint& contact : m_contacts) contact.m_impulse = {2, -1, 15};
-            for (ContactPoint& contact : m_contacts) contact.m_point.z -= 0.01;  // a lever
+            for (ContactPoint& contact : m_contacts) contact.m_point.z -= 0.01;  // a lever arm
         }
     };
 
@@ -55,7 +55,7 @@ protected:
         return motion.m_report;
     }
 
-    // `loosely`: how much less closely the free motion is solved than contact.
+    // `loosely`: factor of the free motion's tolerance over that of contact.
     static void solveContactExpecting(Scene& scene, const std::vector<Vec3>& expected, double loosely = 1)
     {
         const StepSettings step = scene.m_settings.m_step;
@@ -75,7 +75,7 @@ protected:
         EXPECT_LT(norm(scene.m_rigidProxies[0].m_linearVelocity - reference.m_rigidProxies[0].m_linearVelocity), 1e-5);
     }
 
-    // Of cube and ball about the origin, less what gravity gives the cube.
+    // Momenta of cube and ball about the origin, minus the impulse of gravity on the cube.
     static std::pair<Vec3, Vec3> momentum(const Scene& scene, const std::vector<Vec3>& v, double step)
     {
         const BodyState& s = scene.m_body.m_state;
@@ -141,7 +141,7 @@ TEST_F(PredictedImpulses, PreserveTheMomentumOfTheActualImpulses)
     expectMomentumKept(wrong, expected);
 }
 
-// Be it that nothing is solved for any more.
+// Also if no further solve is needed.
 TEST_F(PredictedImpulses, PreserveMomentumIfTheGuessIsTheSolution)
 {
     Scene scene;
@@ -166,7 +166,7 @@ TEST_F(PredictedImpulses, AreTakenBackWithoutContact)
     EXPECT_LE(norm(after.first - before.first), 1e-12 * scene.softMass());
 }
 
-// The residual is measured against the impulses: what is to be solved is next to nothing.
+// The residual is measured against the impulses: almost nothing remains to be solved.
 TEST_F(PredictedImpulses, LeaveNothingToSolveIfTheyBalanceTheLoads)
 {
     Scene scene;
@@ -180,7 +180,7 @@ TEST_F(PredictedImpulses, LeaveNothingToSolveIfTheyBalanceTheLoads)
     EXPECT_EQ(report.m_iterations, 0);
     EXPECT_LE(report.m_residual, 2e-5);
     for (const Vec3& v : velocity(scene.m_body)) EXPECT_LT(norm(v), 1e-5);
-    // Beside a small share of them it is something.
+    // With a tolerance far below them the remainder counts.
     EXPECT_GT(solveExpecting(scene, expected, 1e-3).m_iterations, 0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Coulomb's disc, and that no direction of the world is preferred.
+// Coulomb's disc, and the invariance of contact under rotation of the scene.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,7 +85,7 @@ TEST(Friction, IsAbsentWithZeroCoefficient)
         EXPECT_EQ(std::hypot(contact.m_impulse.x, contact.m_impulse.y), 0);
 }
 
-// --- W does not know directions: the turned scene has the turned answer ---
+// --- The rotated scene has the rotated solution ---
 
 class TurnedContact : public testing::TestWithParam<int>  // degrees about an oblique axis
 {

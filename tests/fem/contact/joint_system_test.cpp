@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Joints of a problem are solved at once.
+// All joints of a contact problem are solved as one linear system.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Joints of single nodes of the cube with the scene's rigid proxy, or with the world.
+/// Joints of single nodes of the cube to the scene's rigid proxy, or to the world.
 class JointSystemTest : public testing::Test
 {
 protected:
@@ -41,7 +41,7 @@ protected:
         return problem.m_joints.back();
     }
 
-    /// Of the node of a joint, beyond what it wants [m/s].
+    /// Error of the joint's node velocity against its target [m/s].
     double miss(const Joint& joint) const
     {
         const Vec3 v = velocity(m_scene.m_body)[m_scene.m_problem.m_handleNodes[joint.m_a.m_first]];
@@ -70,7 +70,7 @@ TEST_F(JointSystemTest, TakesOneSweepPerOuterIteration)
     for (const Joint& joint : m_joints) EXPECT_LT(miss(joint), 1e-6);
 }
 
-// Neither a ball of a gram nor one of a thousand tons is let go of.
+// Both a ball of a gram and one of a thousand tons are held.
 TEST_F(JointSystemTest, HoldsRigidBodiesOfAnyMass)
 {
     for (const double mass : {1e-3, 1e3, 1e6})
@@ -109,14 +109,14 @@ TEST_F(JointSystemTest, BearsJointsThatContradictEachOther)
     for (const Joint& joint : m_joints) EXPECT_LT(norm(joint.m_impulse), 3e3);
 }
 
-// What would pull harder than it may pulls as hard as it may, and the others do the rest.
+// A joint beyond its impulse limit stays at the limit, and the other joints carry the rest.
 TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
 {
     for (int node : {0, 2, 6, 8}) hold(node);
     m_joints[0].m_limit = {Joint::kUnlimited, Joint::kUnlimited, 50};
     m_joints[1].m_maxImpulse = 20;
     m_joints[2].m_limit = {0, Joint::kUnlimited, Joint::kUnlimited};
-    m_joints[2].m_impulse = {10, 0, 0};  // of a step in which it had none
+    m_joints[2].m_impulse = {10, 0, 0};  // as if left from a step in which it had none
     solve();
     EXPECT_NEAR(m_joints[0].m_impulse.z, 50, 1e-6);
     EXPECT_NEAR(norm(m_joints[1].m_impulse), 20, 1e-6);
@@ -127,13 +127,13 @@ TEST_F(JointSystemTest, HoldsImpulsesAtTheirLimits)
     EXPECT_LT(std::hypot(v.y, v.z), 1e-4);
 }
 
-// One that starts at its limit, as it was a step ago, lets go of it.
+// A joint that starts at its limit, from the last step, is released from it.
 TEST_F(JointSystemTest, ReleasesLimitsNoLongerReached)
 {
     hold(4).m_maxImpulse = 1e6;
     m_joints[0].m_impulse = {0, 0, -1e6};
     solve();
-    EXPECT_LT(miss(m_joints[0]), 1e-3);  // what it started with would make a thousand m/s
+    EXPECT_LT(miss(m_joints[0]), 1e-3);  // its initial impulse alone would make a thousand m/s
     EXPECT_LT(norm(m_joints[0].m_impulse), 1e4);
 }
 
@@ -147,7 +147,7 @@ TEST_F(JointSystemTest, AddsCompliance)
     EXPECT_GT(norm(v), 0.01);
 }
 
-/// All nodes of the cube's surface, held by a joint each. The cube is turned and strained.
+/// Each node of the cube's surface is held by a joint. The cube is rotated and strained.
 class ManyHeldNodesTest : public JointSystemTest
 {
 protected:
@@ -169,17 +169,17 @@ protected:
         }
         scene.setVelocity({0.3, -0.5, -1});
         scene.m_settings.m_sweeps = 50;
-        scene.m_settings.m_rounds = 10;  // W is that of the shape at rest, and the cube is strained by a fifth
+        scene.m_settings.m_rounds = 10;  // W is that of the rest shape, and the cube is strained by a fifth
     }
 
-    /// Of a joint's node, beyond what the joint wants along its axes [m/s].
+    /// Error of the joint's node velocity along the joint's axes [m/s].
     double missAlongAxes(const Joint& joint) const
     {
         const Vec3 v = velocity(m_scene.m_body)[m_scene.m_problem.m_handleNodes[joint.m_a.m_first]];
         return norm(v - m_axes * joint.m_wanted);
     }
 
-    /// Rows of the scene, as they are after the free motion.
+    /// Assembles the scene's rows after the free motion.
     void assemble(ContactRows& rows)
     {
         m_scene.m_problem.m_bodies = {{&m_scene.m_body, m_scene.m_cache.get()}};
@@ -189,7 +189,7 @@ protected:
     const Mat3 m_turn = rotationAbout({0.3, -0.5, 0.8}, 0.7), m_axes = rotationAbout({1, 2, 0}, 1.1);
 };
 
-// The factor of A0^-1 between the nodes, which is a constant, answers what W asks, though the body has turned.
+// The factor of A0^-1 between the nodes, a constant, inverts W of the rotated body.
 TEST_F(ManyHeldNodesTest, RotatedFactorInvertsTheirCompliance)
 {
     solveFreeMotion(m_scene.m_body, m_scene.m_settings.m_step);
@@ -249,7 +249,7 @@ TEST_F(ManyHeldNodesTest, TakeOneSweepPerOuterIteration)
     for (const Joint& joint : m_joints) EXPECT_LT(missAlongAxes(joint), 1e-6);
 }
 
-// A compliance that is nothing beside W takes them to the factor of the step's own W.
+// A joint compliance negligible beside W makes the solver use the factor of the step's own W.
 TEST_F(ManyHeldNodesTest, MatchTheResponseOfTheStepsOwnFactor)
 {
     ContactScene other;
@@ -264,7 +264,7 @@ TEST_F(ManyHeldNodesTest, MatchTheResponseOfTheStepsOwnFactor)
     }
 }
 
-// One of them, and the others go on by the step's own factor.
+// One joint at its limit: the others are solved by the step's own factor.
 TEST_F(ManyHeldNodesTest, HoldAnImpulseAtItsLimit)
 {
     m_joints[4].m_maxImpulse = 1;
@@ -275,7 +275,7 @@ TEST_F(ManyHeldNodesTest, HoldAnImpulseAtItsLimit)
     for (const Joint& joint : m_joints) EXPECT_LT(missAlongAxes(joint), 1e-4);
 }
 
-// Whatever the cache was asked for before, as in a run from which a state was saved.
+// For any earlier requests to the cache, as after restoring a saved state.
 TEST_F(ManyHeldNodesTest, HaveTheSameBitsWithAnyHistoryOfTheCache)
 {
     ContactScene other;
@@ -289,7 +289,7 @@ TEST_F(ManyHeldNodesTest, HaveTheSameBitsWithAnyHistoryOfTheCache)
         EXPECT_EQ(norm(velocity(m_scene.m_body)[node] - velocity(other.m_body)[node]), 0) << node;
 }
 
-// Beside contacts both hold.
+// Joint and contacts are both fulfilled.
 TEST_F(JointSystemTest, IsSolvedAmongContacts)
 {
     hold(22);

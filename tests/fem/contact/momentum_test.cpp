@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What a soft body loses its rigid proxies gain, to rounding, however approximate the compliance is.
+// Momentum lost by a soft body equals that gained by its rigid proxies, to rounding, for any approximation of the
+// compliance.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/fem/step/stepping.h"
@@ -29,7 +30,7 @@ struct Momenta
 class MomentumExchange : public testing::TestWithParam<double>
 {
 protected:
-    // A ball comes up, spinning, against the lower face of the soft cube that comes down and sideways.
+    // A spinning ball moves up against the lower face of the soft cube, which moves down and sideways.
     MomentumExchange()
     {
         RigidProxy& ball = m_scene.m_rigidProxies[0];
@@ -40,7 +41,7 @@ protected:
         ball.m_angularVelocity = {3, -2, 4};
         m_scene.setVelocity({1, -0.5, -2});
         m_scene.touchLowerFace(0, 0.5);
-        // As a step would be taken: the solver's patience must not matter for momentum.
+        // The default tolerance of a step: momentum must not depend on it.
         m_scene.m_settings.m_step.m_tolerance = 1e-3;
         m_scene.m_settings.m_rounds = 2;
         m_scene.m_settings.m_sweeps = 20;
@@ -96,7 +97,7 @@ TEST_P(MomentumExchange, GivesTheSumOfItsImpulsesToBothSides)
     EXPECT_LE(norm(softGain - J), 1e-12 * (norm(J) + m_scene.softMass() * 2.3));
 }
 
-// Friction and inelastic impact take energy, they never give any.
+// Friction and inelastic impact only dissipate energy.
 TEST_P(MomentumExchange, NeverApproachesAfterwards)
 {
     m_scene.m_settings.m_step.m_tolerance = 1e-9;
@@ -120,7 +121,8 @@ INSTANTIATE_TEST_SUITE_P(MassRatios, MomentumExchange, testing::Values(1e-3, 0.1
                              return "Rigid" + name;
                          });
 
-// Two bodies that meet head on and stiffly go on together: v' = (m1 v1 + m2 v2) / (m1 + m2), but for rho L^2 / (E h^2).
+// A central stiff impact ends in the common velocity v' = (m1 v1 + m2 v2) / (m1 + m2), with an error of rho L^2 / (E
+// h^2).
 TEST(InelasticImpact, EndsInTheCommonVelocity)
 {
     for (const double ratio : {0.1, 1.0, 10.0})
@@ -139,7 +141,7 @@ TEST(InelasticImpact, EndsInTheCommonVelocity)
     }
 }
 
-// A slider moves along its rail alone.
+// A slider accepts impulses along its axis only.
 TEST(Slider, TakesImpulsesAlongItsAxisOnly)
 {
     ContactScene scene;

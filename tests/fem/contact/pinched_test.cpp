@@ -6,7 +6,7 @@
 
 #include "fem/scenes/contact_scene.h"
 
-// Nodes between two bodies, with the guesses of a step in which both held them.
+// Nodes pinched between two bodies, with warm starts from a step in which both pressed on them.
 namespace bullet_fem
 {
 namespace
@@ -14,7 +14,7 @@ namespace
 
 constexpr double kMass = 3e3;  // of the ball [kg]; a node of the cube has some tens
 
-// The lower face of the cube between a floor and a ball, which touches all of its nodes from above.
+// Puts the cube's lower face between a floor and a ball, which is in contact with all its nodes from above.
 void pinch(ContactScene& scene, double speed, double guess)
 {
     scene.m_settings.m_rounds = 1;
@@ -40,7 +40,7 @@ void pinch(ContactScene& scene, double speed, double guess)
 
 }  // namespace
 
-// What leaves is let go by both sides, what presses is held by both; rounds come to an end.
+// Contacts that separate have no impulse on either side, closing ones have on both; outer iterations end.
 TEST(Pinched, NodesAreOnlyPushed)
 {
     for (const double young : {1e4, 1e5, 1e6})

@@ -28,7 +28,7 @@ class ComplianceKernel : public OnTarget
 {
 };
 
-// All nodes, and some of them: what lies before and behind them is not written.
+// All nodes, and some of them: memory before and behind them is not written.
 TEST_P(ComplianceKernel, RotatesColumnsAsItsScalarReference)
 {
     constexpr std::size_t kNodes = 21, kStride = 3 * kNodes + 2;
@@ -51,7 +51,7 @@ TEST_P(ComplianceKernel, RotatesColumnsAsItsScalarReference)
     }
 }
 
-// Sizes with and without a rest at the end of every vector width; no array at all.
+// Sizes with and without a remainder modulo each vector width; an empty array.
 TEST_P(ComplianceKernel, AddsWeightedArraysAsItsScalarReference)
 {
     const std::vector<float> values = randomFloats(4 * 50, 3), weights = {.5f, -2, .25f, 3};
@@ -69,7 +69,7 @@ TEST_P(ComplianceKernel, AddsWeightedArraysAsItsScalarReference)
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, ComplianceKernel, testing::ValuesIn(availableTargets()), targetName);
 
-/// A box that is clamped at one end and bent, one of its free nodes held since.
+/// A box that is clamped at one end and bent; one of its free nodes has been fixed since.
 class PointComplianceTest : public testing::Test
 {
 protected:
@@ -97,7 +97,7 @@ protected:
         return result;
     }
 
-    // And a slot of its own behind them.
+    // Forms W of the points, with one slot of its own after theirs.
     void form(PointCompliance& W, const std::vector<SurfacePoint>& points, double scale)
     {
         W.clear(m_body.m_state.m_x.size());
@@ -108,7 +108,7 @@ protected:
         W.form({&m_body, m_cache.get()}, scale);
     }
 
-    // By the preconditioner itself, which is that factor turned with the nodes.
+    // The oracle: the preconditioner itself, which is that factor rotated with the nodes.
     Vec3 expected(const SurfacePoint& to, const SurfacePoint& from, int axis) const
     {
         std::vector<Vec3> in(m_body.m_state.m_x.size()), out = in;
@@ -131,7 +131,7 @@ TEST_F(PointComplianceTest, MatchesTheRotatedFactorBetweenPoints)
         point({m_clamped[0], m_free[3], m_held}, {.5, .4, .1}), point({m_clamped[1]}, {1})};
     constexpr double kScale = 2.5;
     PointCompliance W;
-    for (int repeat = 0; repeat < 2; ++repeat)  // nothing of the last time is left
+    for (int repeat = 0; repeat < 2; ++repeat)  // results of the last call are overwritten
     {
         form(W, points, 1);
         W.scale(kScale);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Penetration, nodes without compliance, and compliances that no longer fit.
+// Position correction of penetrations, contacts of fixed nodes, and contacts with a stale factor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,7 @@ TEST(Penetration, IsLeftAloneWithinTheSlop)
     EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 0.2 * 0.004, 1e-5 * 0.004);
 }
 
-// What is less than the tolerance that pushes are solved to, 1e-4 of what loads do in a step, is left as it is.
+// A penetration below the tolerance of the correction sweeps, 1e-4 of the displacement by loads in a step, is left.
 TEST(Penetration, IsLeftAloneBelowTheSweepTolerance)
 {
     const double step = 1.0 / 60, acceleration = 10;
@@ -73,7 +73,7 @@ TEST(Penetration, IsLeftAloneBelowTheSweepTolerance)
     EXPECT_NEAR(pushed(1.05 * negligible), 0.2 * 1.05 * negligible, 1e-2 * negligible);
 }
 
-// A body that leaves by itself faster than it would be pushed is not pushed.
+// A body that separates faster than the correction is not corrected.
 TEST(Penetration, IsNotTakenBackTwice)
 {
     ContactScene scene;
@@ -84,7 +84,7 @@ TEST(Penetration, IsNotTakenBackTwice)
     EXPECT_NEAR(scene.m_body.m_state.m_x[4].z, 1.0 / 60, 1e-12);
 }
 
-// Both sides give way; together by the share that is wanted, and neither keeps a velocity.
+// Both sides move, together by the requested share, and neither keeps a velocity.
 TEST(Penetration, IsSharedWithAFreeObstacle)
 {
     ContactScene scene;
@@ -100,7 +100,7 @@ TEST(Penetration, IsSharedWithAFreeObstacle)
     EXPECT_LE(norm(scene.m_body.m_state.m_v[4]), 1e-12);
 }
 
-// --- Nodes that cannot give way ---
+// --- Nodes without compliance ---
 
 TEST(FixedContact, IsIgnoredAgainstAStaticObstacle)
 {
@@ -114,7 +114,7 @@ TEST(FixedContact, IsIgnoredAgainstAStaticObstacle)
     EXPECT_EQ(scene.m_body.m_state.m_v[4].z, -1);
 }
 
-// A moving pinned node is a kinematic fist: the ball takes its velocity.
+// A moving pinned node acts as a kinematic body: the ball takes its velocity.
 TEST(FixedContact, PushesAFreeObstacle)
 {
     ContactScene scene;
@@ -129,8 +129,8 @@ TEST(FixedContact, PushesAFreeObstacle)
     EXPECT_NEAR(ball.m_linearVelocity.z, -1, 1e-12);
 }
 
-// A node that was fixed when the factor was made and is free now has no compliance in it; the law holds all the same.
-// (W does not know; the rounds find out.)
+// A node that was fixed when the factor was made, and is free now, has no compliance in W; the contact law is fulfilled
+// by the outer iterations.
 TEST(FixedContact, HoldsForANodeReleasedSinceTheFactor)
 {
     ContactScene scene;
@@ -144,10 +144,10 @@ TEST(FixedContact, HoldsForANodeReleasedSinceTheFactor)
     scene.m_settings.m_rounds = 10;
     scene.solve();
     EXPECT_GT(scene.m_contacts[0].m_impulse.z, 0);
-    EXPECT_NEAR(scene.relativeVelocity(scene.m_contacts[0]).z, 0, 0.02);  // 1 % of what it was
+    EXPECT_NEAR(scene.relativeVelocity(scene.m_contacts[0]).z, 0, 0.02);  // 1 % of the initial velocity
 }
 
-// --- A factor that no longer fits: W is wrong, the law holds all the same ---
+// --- A stale factor: W is wrong, and the contact law still holds ---
 
 struct Staleness
 {
@@ -182,7 +182,7 @@ TEST_P(StaleContact, HoldsTheBodyAllTheSame)
     }
 }
 
-// A W that was too stiff by ten is so in the next step as well: what the rounds found out is kept.
+// A W that is too stiff by ten stays so in the next step: the scale found by the outer iterations is kept.
 TEST(StaleFactorContact, LearnsForTheNextStep)
 {
     ContactScene scene;

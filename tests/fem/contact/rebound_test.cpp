@@ -81,7 +81,7 @@ TEST_F(ReboundTest, GivesNothingIfPartingFasterOrWithoutEnergy)
     EXPECT_NEAR(norm(giveRebound(m_problem, m_rebound)), 0, 1e-15);
 }
 
-// One piece with momenta of a rigid body; a rigid motion that is added is in them.
+// One component with the momenta of a rigid body; an added rigid motion is included.
 TEST(WholeMotion, MatchesTheMomenta)
 {
     ContactScene scene;

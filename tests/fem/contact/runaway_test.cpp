@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The compliance of stiff, light bodies may be too inexact to be definite: sweeps over it can run away. Such bodies are
-// let go of for the step.
+// The approximate compliance of a stiff, light body may be indefinite, so that sweeps diverge. The impulses on such a
+// body are dropped for the step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace
 
 constexpr double kLongStep = 0.05, kYoung = 1e8, kDensity = 10;  // [s], [Pa], [kg/m3]
 
-constexpr int kCorner = 49, kOtherCorner = 55;  // of a plate's upper face, on one edge
+constexpr int kCorner = 49, kOtherCorner = 55;  // on one edge of a plate's upper face
 using Pins = std::vector<int>;
 
-// A plate with a tetrahedron on its last node: with the three other nodes of that fixed it turns about the last one,
-// though it hangs on more than a point.
+// A plate with a tetrahedron attached at its last node: if the tetrahedron's three other nodes are fixed, the plate can
+// rotate about the last node, although more than one node is fixed.
 TetMesh plateOnAJoint()
 {
     const TetMesh box = makeBox({0.3, 0.3, 0.03}, {6, 6, 1});
@@ -36,7 +36,7 @@ TetMesh plateOnAJoint()
 }
 const Pins kJoint = {98, 99, 100};
 
-// A plate of 27 g, its lower face on points whose normals differ.
+// A plate of 27 g; its lower face is in contact at points with different normals.
 class Plate : public ContactScene
 {
 public:
@@ -74,9 +74,9 @@ public:
     }
 };
 
-constexpr double kFastEnough = 20;  // [m/s]; they come with at most 3
+constexpr double kFastEnough = 20;  // [m/s]; the initial speed is at most 3
 
-// The turns that fixed nodes allow are no strain, however stiff the plate is.
+// Rotations that fixed nodes allow are no strain, for any stiffness of the plate.
 TEST(Runaway, DoesNotHappenWithRigidMotions)
 {
     for (const Pins& pins : {Pins{}, {kCorner}, {kCorner, kOtherCorner}})
@@ -100,7 +100,7 @@ TEST(Runaway, IsStopped)
     EXPECT_GT(unsolved, 35);
 }
 
-// What has sunk in and does not close any more is pushed apart by sweeps of its own, which run away as well.
+// Position correction of penetrations that do not close has sweeps of its own, which may diverge as well.
 TEST(Runaway, IsStoppedInPositionCorrections)
 {
     for (unsigned seed = 0; seed < 10; ++seed)
@@ -116,7 +116,7 @@ TEST(Runaway, IsStoppedInPositionCorrections)
     }
 }
 
-// Points of the lower face of a cube, held by the floor, are driven into it: no impulse is enough.
+// Points of a cube's lower face, in contact with the floor, are driven into it: no impulse suffices.
 TEST(Runaway, IsRevertedForAMixOfSweeps)
 {
     std::mt19937 generator(1);

@@ -22,7 +22,7 @@ void addNode(SoftBodyContacts& ends, const Body& body, int node)
     ends.setPoint(point, {0, {node, node, node}, {1, 0, 0}}, body.m_state.m_x[node]);
 }
 
-// A corner of a turned and strained cube is pushed: away from rest one iteration is not enough.
+// An impulse on a corner of a rotated and strained cube: one iteration is not enough away from rest.
 TEST(SoftBodyContacts, SolveForTheResidualOfALooseCorrection)
 {
     const auto makeCube = []
@@ -77,7 +77,7 @@ TEST(SoftBodyContacts, SolveForTheResidualOfALooseCorrection)
     EXPECT_FALSE(correct({}));
 }
 
-// Impulses that rounding makes where nothing closes change velocities of 1 m/s by nothing, or by rounding.
+// Impulses of rounding size change velocities of 1 m/s by zero or by rounding.
 TEST(SoftBodyContacts, LearnNothingFromTheRoundingOfVelocities)
 {
     Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
@@ -106,7 +106,7 @@ TEST(SoftBodyContacts, LearnNothingFromTheRoundingOfVelocities)
     for (int k = 0; k < 9; ++k) EXPECT_EQ(ends.compliance(1, 1)(k / 3, k % 3), before(k / 3, k % 3));
 }
 
-// The correction that takes back what was expected in vain changes velocities by more than its own impulses do.
+// The correction that reverts wrong predicted impulses changes velocities by more than its own impulses do.
 TEST(SoftBodyContacts, LearnNothingFromWrongPredictedImpulses)
 {
     Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3));
@@ -137,12 +137,13 @@ TEST(SoftBodyContacts, LearnNothingFromWrongPredictedImpulses)
     EXPECT_FALSE(ends.hasLearnt());
     EXPECT_FALSE(ends.isTooSoft());
     correct({0, 0, 10});
-    EXPECT_FALSE(ends.hasLearnt());  // W is right
+    EXPECT_FALSE(ends.hasLearnt());  // W is exact
     EXPECT_FALSE(ends.isTooSoft());
 }
 
-// What hangs on a pin turns about it by the momentum of an impulse, whatever its shape; P has the arms of the body at
-// rest, along which this one pulls: it tells a thirtieth. To scale W would make it soft in every other direction, too.
+// A body on one pin rotates about it by the impulse's moment, for any shape; P uses the lever arms of the rest shape,
+// along which the impulse here nearly points: it predicts a thirtieth of the response. Scaling W would make it too soft
+// in all other directions.
 TEST(SoftBodyContacts, LearnTheRigidResponseOfAStrainedBody)
 {
     const auto isPinned = [](const Vec3& X) { return norm(X) < 1e-6; };
@@ -164,7 +165,7 @@ TEST(SoftBodyContacts, LearnTheRigidResponseOfAStrainedBody)
     ends.measure();
     const Mat3 before = ends.compliance(0, 0);
     const Vec3 impulse = ends.rotation(last) * Vec3{10, 10, 10};
-    // What W tells of the speed that the end gets, as a share of what it gets.
+    // The predicted speed of the contact point over its actual speed.
     const auto toldShare = [&]
     {
         const Vec3 v = ends.trueVelocity(0);

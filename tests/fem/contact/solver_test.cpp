@@ -19,13 +19,13 @@ namespace
 
 constexpr double kGravity = 9.81;
 
-// Between rounds the true system corrects W, whose single precision is 1e-6: velocities are exact to far less than
+// Outer iterations correct W with the true system, from 1e-6 in single precision: velocities are far more accurate than
 // that.
 constexpr double kSolved = 1e-6;
 
 // --- Normal impulses ---
 
-// The law: no approach beyond the gap, no pull, and an impulse only where the gap closes.
+// Signorini's law: no approach beyond the gap, no tensile impulse, and an impulse only if the gap closes.
 TEST(Contact, HoldsADroppingBody)
 {
     ContactScene scene;
@@ -47,7 +47,7 @@ TEST(Contact, HoldsADroppingBody)
     EXPECT_LE(norm(linearMomentum(scene.m_body.m_state) - expected), 1e-12 * m * 2);
 }
 
-// A stiff body stops at once: J = m (v + g h) but for rho L^2 / (E h^2), 4e-4.
+// A stiff body stops within one step: J = m (v + g h), with an error of rho L^2 / (E h^2) = 4e-4.
 TEST(Contact, TakesTheWholeMomentumOfAStiffBody)
 {
     ContactScene scene(1e10);
@@ -59,7 +59,7 @@ TEST(Contact, TakesTheWholeMomentumOfAStiffBody)
     EXPECT_NEAR(scene.totalImpulse().z, expected, 1e-3 * expected);
 }
 
-// lambda = -(n . v) / (n . A^-1 n), A at rest being A0.
+// The oracle: lambda = -(n . v) / (n . A^-1 n), where A = A0 at rest.
 TEST(Contact, NodeImpulseMatchesHandCalculation)
 {
     ContactScene scene;
@@ -90,7 +90,8 @@ TEST(Contact, StopsThePointOfAFace)
     EXPECT_NEAR(scene.relativeVelocity(scene.m_contacts[0]).z, 0, kSolved);
 }
 
-// Anywhere in the body, if the cache serves the nodes: with the point's own compliance, and no moment about it.
+// A point inside the body, if the cache has its nodes: the solver uses the point's own compliance, and there is no
+// moment about it.
 TEST(Contact, ActsAtAPointOfThreeElements)
 {
     ContactScene scene;
@@ -105,7 +106,7 @@ TEST(Contact, ActsAtAPointOfThreeElements)
     contact.m_soft.m_count = SurfacePoint::kMaxNodes;
     for (int a = 0; a < SurfacePoint::kMaxNodes; ++a)
     {
-        contact.m_soft.m_nodes[a] = 2 * a;  // 13, the middle of the cube, is not among them, but 12 and 14 are
+        contact.m_soft.m_nodes[a] = 2 * a;  // node 13, the middle of the cube, is excluded
         contact.m_soft.m_weights[a] = (a + 1) / 78.0;
     }
     contact.m_point = contact.m_soft.of(body.m_state.m_x);
@@ -133,7 +134,8 @@ TEST(Contact, NeverPulls)
     for (const Vec3& v : velocity(scene.m_body)) EXPECT_LE(norm(v - Vec3{0, 0, 2}), 1e-14);
 }
 
-// Rows of others, such as those between rigid bodies, are swept in turn with these until both are done, or get nowhere.
+// Rows of other solvers, such as those between rigid bodies, are swept alternately with these until both converge or
+// stagnate.
 TEST(Contact, IsSweptAsLongAsOthersMove)
 {
     constexpr int kMany = 1000;
@@ -153,19 +155,19 @@ TEST(Contact, IsSweptAsLongAsOthersMove)
     };
     const int alone = sweepsUntilDone([](int) { return 0.0; });
     EXPECT_LT(alone, kMany);
-    EXPECT_EQ(sweepsUntilDone([](int) { return 1e-7; }), 1) << "that others still change by less than they round to";
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1e-7; }), 1) << "other rows change by less than rounding";
     const auto slowing = [](int sweep) { return std::pow(0.7, sweep); };  // [m/s]
     const int last = sweepsUntilDone(slowing);
-    EXPECT_LE(slowing(last), 2 * scene.m_settings.m_tolerance) << "of 2 m/s that contact changes";
+    EXPECT_LE(slowing(last), 2 * scene.m_settings.m_tolerance) << "of a velocity change of 2 m/s";
     EXPECT_GT(slowing(last - 1), 2 * scene.m_settings.m_tolerance);
-    EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "the second ten are no better than the first";
+    EXPECT_EQ(sweepsUntilDone([](int) { return 1.0; }), 20) << "ten more sweeps are no improvement";
 }
 
 TEST(Contact, HasNoEffectOutOfReach)
 {
     ContactScene scene, alone;
     for (ContactScene* each : {&scene, &alone}) each->setVelocity({1, 0, -2});
-    scene.touchLowerFace(2.0 / 60 + 1e-6, 0.5);  // just not reached in this step
+    scene.touchLowerFace(2.0 / 60 + 1e-6, 0.5);  // the gap stays open by a little in this step
     const ContactReport report = scene.solve();
     alone.solve();
     for (const ContactPoint& contact : scene.m_contacts) EXPECT_EQ(norm(contact.m_impulse), 0);
@@ -173,7 +175,7 @@ TEST(Contact, HasNoEffectOutOfReach)
     EXPECT_EQ(report.m_iterations, 0);
 }
 
-// The body arrives at the surface at the end of the step, neither before it nor behind it.
+// The body reaches the surface exactly at the end of the step.
 TEST(Contact, LetsTheGapCloseWithinTheStep)
 {
     ContactScene scene;
@@ -196,7 +198,7 @@ TEST(Contact, ReportsNothingWithoutContacts)
     EXPECT_EQ(norm(scene.m_rigidProxies[0].m_pushLinear), 0);
 }
 
-// --- Obstacles that move ---
+// --- Moving obstacles ---
 
 TEST(Contact, FollowsAnObstacleThatRisesDuringTheStep)
 {
@@ -223,10 +225,10 @@ TEST(Contact, SticksToAConveyorAndToATurntable)
         EXPECT_LE(norm(scene.relativeVelocity(contact) - arc), 1e-5);
     }
     EXPECT_NEAR(velocity(scene.m_body)[0].x, 1, 1e-5);
-    EXPECT_NEAR(velocity(scene.m_body)[2].y, 2, 1e-5);  // at (1, 0, 0): 1 + 2 x (1, 0, 0), but for the arc
+    EXPECT_NEAR(velocity(scene.m_body)[2].y, 2, 1e-5);  // at (1, 0, 0): 1 + 2 x (1, 0, 0), minus the arc
 }
 
-// --- Several bodies, guesses, limits ---
+// --- Several bodies, warm starts, limits ---
 
 TEST(Contacts, SeveralBodiesAreIndependent)
 {
@@ -271,7 +273,7 @@ TEST(Contacts, StartFromTheImpulsesGiven)
     ContactScene warm;
     warm.setVelocity({1, 0, -2});
     warm.m_contacts = cold.m_contacts;
-    warm.m_settings.m_tolerance = 1e-2;  // of the little that the guesses leave to do
+    warm.m_settings.m_tolerance = 1e-2;  // relative to the small remainder after the warm start
     EXPECT_LT(warm.solve().m_sweeps, sweeps);
     for (int k = 0; k < 9; ++k)
         EXPECT_LE(norm(warm.m_contacts[k].m_impulse - cold.m_contacts[k].m_impulse),
@@ -300,7 +302,7 @@ TEST(Contacts, SayWhenASolveDidNotConverge)
     scene.setVelocity({1, 0, -2});
     scene.touchLowerFace(0, 0.3);
     scene.m_settings.m_step.m_maxIterations = 1;
-    scene.m_settings.m_rounds = scene.m_settings.m_maxRounds = 1;  // further ones would go on where it ended
+    scene.m_settings.m_rounds = scene.m_settings.m_maxRounds = 1;  // further outer iterations would continue from there
     EXPECT_FALSE(scene.solve().m_converged);
     for (const Vec3& v : velocity(scene.m_body)) EXPECT_LT(norm(v), 10);
 }
@@ -321,7 +323,8 @@ TEST(Contacts, ObeyTheirSweepAndOuterIterationLimits)
     EXPECT_EQ(scene.solve().m_rounds, 2);
 }
 
-// One pair of a cube and the floor: seven more sweeps over it are part of the first; then one finds nothing to do.
+// One pair of a cube and the floor: seven extra sweeps over it belong to the first global sweep; the next one finds it
+// converged.
 TEST(Contact, StronglyChangedPairIsSweptAgainAtOnce)
 {
     ContactScene scene;

@@ -20,7 +20,7 @@ struct GridRow
     int m_a, m_b;
 };
 
-/// A block of movers, every one with rows to its neighbours on three sides and one to something that does not move.
+/// A block of movable bodies, each with rows to its neighbours on three sides and one row to a static object.
 class SweepPartsTest : public ::testing::Test
 {
 protected:
@@ -107,7 +107,7 @@ TEST_F(SweepPartsTest, EveryRowIsInOnePartInItsOldOrder)
     EXPECT_EQ(rows, some);
 }
 
-// What lies across the first cut is swept by one thread: of 15 planes of pairs it cuts one.
+// Rows across the first cut are swept by one thread: it cuts one of 15 planes of pairs.
 TEST_F(SweepPartsTest, TheWholeHasFewRowsAndTheHalvesAreAlike)
 {
     m_parts.divide(true);

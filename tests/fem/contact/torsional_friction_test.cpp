@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Couples of rolling and spinning friction between the lower face of a soft cube and a ball that spins below it.
+// Rolling and spinning friction between the lower face of a soft cube and a spinning ball below it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,14 @@ constexpr double kSpinningRadius = 0.5;  // [m]
 constexpr double kSpinLever = 0.5;       // [m]
 constexpr int kTorsionNodes = 9;
 
-/// Both sides' angular momentum about the origin [kg m2/s].
+/// Angular momenta of both bodies about the origin [kg m2/s].
 struct AngularMomenta
 {
     Vec3 m_soft, m_ball;
 };
 
-/// Contacts without friction and, between the two, a couple with these coefficients [m]; the limit of points for a
-/// dense compliance.
+/// Frictionless contacts and one torsional friction row with these coefficients [m]; the parameter is the limit of
+/// points for a dense compliance.
 class TorsionalRows : public testing::TestWithParam<int>
 {
 protected:
@@ -100,11 +100,11 @@ protected:
     ContactScene m_scene;
 };
 
-// Against the spin about each axis: of 4 rad/s about the normal, and of (3, -2) across it.
+// Friction against the spin about each axis: 4 rad/s about the normal, and (3, -2) across it.
 TEST_P(TorsionalRows, SlipWithTheLoadTimesTheCoefficients)
 {
     m_scene.m_contacts.clear();
-    m_scene.touchNode(4, 0, 0);  // the middle: else the normal rows hold the face to the ball
+    m_scene.touchNode(4, 0, 0);  // the middle node; otherwise the normal rows resist the spin
     addTorsion(0.01, 0.02);
     m_scene.solve();
     const Vec3 spin = m_scene.m_rigidProxies[0].m_angularVelocity - patchSpin();

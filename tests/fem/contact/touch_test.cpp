@@ -5,7 +5,7 @@
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/contact_scene.h"
 
-// Obstacles that others hold: a soft cube meets a ball that lies on a floor, or on another ball.
+// Obstacles supported by others: a soft cube meets a ball that lies on a floor, or on another ball.
 namespace bullet_fem
 {
 namespace
@@ -13,7 +13,7 @@ namespace
 
 constexpr double kRadius = 0.2, kLight = 10;  // of balls [m], [kg]; the cube has a ton
 
-// Under the middle of the cube's lower face, and under each other.
+// Puts balls under the middle of the cube's lower face, one below another.
 void putBalls(ContactScene& scene, int count)
 {
     scene.setVelocity({0, 0, -2});
@@ -27,7 +27,7 @@ void putBalls(ContactScene& scene, int count)
     scene.touchNode(4, 0, 0);
 }
 
-// A ball on the one below; the last on the floor.
+// The contact of a ball with the ball below; of the last ball with the floor.
 RigidContact touchBelow(int ball, int count)
 {
     RigidContact touch;
@@ -68,7 +68,7 @@ TEST(RigidContact, SupportsObjectsOnAFloor)
     }
     ContactScene alone;
     putBalls(alone, 1);
-    EXPECT_LT(impulseOf(alone), 0.5 * whole) << "nothing holds it";
+    EXPECT_LT(impulseOf(alone), 0.5 * whole) << "without support";
 }
 
 TEST(RigidContact, NeverPulls)
@@ -94,7 +94,7 @@ TEST(RigidContact, PreservesTheExistingGap)
     EXPECT_NEAR(scene.m_rigidProxies[0].m_linearVelocity.z, -gap / scene.m_settings.m_step.m_step, 2e-3);
 }
 
-// The soft cube goes all the way where the ball cannot give way; nearly none of it otherwise.
+// The soft cube moves by the whole correction if the ball cannot move, and by nearly none of it otherwise.
 TEST(RigidContact, KeepsPositionCorrectionsOutOfTheFloor)
 {
     for (const bool touches : {false, true})

@@ -28,7 +28,7 @@ private:
     std::uniform_real_distribution<double> m_uniform{-1, 1};
 };
 
-// Fewer, as many and more than the kernel takes at a time; orders with and without a rest at the end of its loop.
+// Fewer rows than a kernel's block, as many and more; orders with and without a remainder at the end of its loop.
 TEST(ResponseKernel, MatchesItsReferenceOnEveryInstructionSet)
 {
     Numbers random;
@@ -59,7 +59,7 @@ TEST(ResponseKernel, MatchesItsReferenceOnEveryInstructionSet)
     EXPECT_GE(compared, 160);
 }
 
-/// Points that are slots of their own, with any compliance between them.
+/// Points with slots of their own and a random compliance between them.
 class RandomPoints
 {
 public:
@@ -78,7 +78,7 @@ public:
     PointCompliance m_points;
 };
 
-// All, others, fewer until those that left are dropped, the same, and all once more.
+// A set of points, another one, smaller ones until absent points are dropped, and finally all points.
 TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
 {
     constexpr int kEnds = 11;
@@ -109,7 +109,7 @@ TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
         for (int e : chosen) EXPECT_TRUE(set.has(e)) << e;
         EXPECT_EQ(std::count_if(velocity.begin(), velocity.end(), [](double v) { return !std::isfinite(v); }), 0);
         largest = std::max(largest, set.ends().size() - std::set<int>(chosen.begin(), chosen.end()).size());
-        // Mixes of sweeps have the velocities of the same mixes of their impulses.
+        // A mix of two sweeps has the equally mixed velocities of their impulses.
         std::vector<Vec3> now(kEnds), last(kEnds);
         std::array<std::vector<Vec3>, 2> delta;
         delta.fill(std::vector<Vec3>(kEnds));
@@ -137,11 +137,11 @@ TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
         }
         for (int e : set.ends()) EXPECT_LE(norm(set.velocity(e) - W.read(e, velocity)), 1e-12) << e;
     }
-    EXPECT_EQ(largest, 1u);  // one that left stayed, five did not
+    EXPECT_EQ(largest, 1u);  // one absent point is kept, five are dropped
 }
 
-/// A cube that falls on the floor between two walls that stand `gap` [m] beside it: its sides touch them only because
-/// it is pressed flat.
+/// A cube falls on the floor between two walls at a distance of `gap` [m]: its sides come into contact only because it
+/// is compressed.
 class Shaft
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Elements whose shear is smoothed around edges: that they bend as much as they should, and do no harm.
+// Elements whose shear is smoothed over edge domains: bending follows beam theory, and other properties are kept.
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
@@ -48,7 +48,7 @@ bool atEnd(const Vec3& X)
     return std::fabs(X.x - 10) < 1e-9;
 }
 
-// u of K u = force with the nodes at x = 0 isClampedEnd.
+// Solves K u = force with the nodes at x = 0, those of isClampedEnd, fixed.
 std::vector<Vec3> displacement(const RestShape& shape, const std::vector<Vec3>& force)
 {
     std::vector<Eigen::Triplet<double>> entries;
@@ -72,7 +72,7 @@ std::vector<Vec3> displacement(const RestShape& shape, const std::vector<Vec3>& 
     return result;
 }
 
-// Tip deflection over Timoshenko's F L^3 / (3 E I) + F L / (kappa G A).
+// Tip deflection divided by Timoshenko's F L^3 / (3 E I) + F L / (kappa G A).
 double tipOverTimoshenko(const TetMesh& mesh, const Material& material)
 {
     const std::vector<double> area = faceAreas(mesh, atEnd);
@@ -96,7 +96,7 @@ TEST(ElasticityAccurateBending, TipDeflectsAsTimoshenkoSays)
         }
 }
 
-// What steps find is what the assembled matrix says: small loads, all of the body's forces and A in it.
+// Steps and the assembled matrix agree: small loads; all of the body's forces and A take part.
 TEST(ElasticityAccurateBending, StepsFindTheSameDeflection)
 {
     const TetMesh mesh = shuffledMesh(makeBox({10, 1, 1}, {20, 2, 2}, {}, CellSplit::kuhnSix), .1, 1);
@@ -113,7 +113,7 @@ TEST(ElasticityAccurateBending, StepsFindTheSameDeflection)
 }
 
 // w / L = .60325, u / L = .25442 at P L^2 / (E I) = 3 [Mattiasson 1981]. Four cells across, and two across the width,
-// where nothing varies at nu 0; shear adds .5 % to w.
+// along which the solution is constant at nu 0; shear adds .5 % to w.
 TEST(ElasticityAccurateBending, FollowsTheElastica)
 {
     const double L = 10, I = 1.0 / 12;
@@ -134,7 +134,7 @@ TEST(ElasticityAccurateBending, FollowsTheElastica)
     }
 }
 
-// G J / L: plain elements have 1.30 and 1.37 with four cells across.
+// Saint-Venant torsion, G J / L: plain elements have 1.30 and 1.37 of it with four cells across.
 TEST(ElasticityAccurateBending, TwistsAsSaintVenantSays)
 {
     for (const std::string kind : {"kuhn", "five", "lattice"})
@@ -168,7 +168,7 @@ int modesOfSmoothedBelow(const RestShape& shape, double shift)
     return static_cast<int>((factor.vectorD().array() < 0).count());
 }
 
-// As of mean dilatation, a free block moves without strain in six ways, and no seventh is near.
+// A free block has exactly six zero-energy modes, and no further eigenvalue near zero.
 TEST(ElasticityAccurateBending, HasSixModesWithoutStrainAndNoSpuriousOnes)
 {
     const TetMesh five = makeBox({1, 1, 1}, {4, 4, 4}), kuhn = makeBox({1, 1, 1}, {4, 4, 4}, {}, CellSplit::kuhnSix);
@@ -188,7 +188,7 @@ TEST(ElasticityAccurateBending, HasSixModesWithoutStrainAndNoSpuriousOnes)
         }
 }
 
-// The boundary is moved by u = G X; the inner nodes find u = G X, too.
+// The boundary is displaced by u = G X; the inner nodes take u = G X, too.
 TEST(ElasticityAccurateBending, PassesThePatchTest)
 {
     for (const double strain : {1e-4, .2})
@@ -210,7 +210,7 @@ TEST(ElasticityAccurateBending, PassesThePatchTest)
     }
 }
 
-// A sum of squares, from small strains to elements that are inside out.
+// The energy is a sum of squares, from small strains to inverted elements.
 TEST(ElasticityAccurateBending, EnergyIsNeverNegative)
 {
     Body body = makeBody(shuffledMesh(makeBox({1, 1, 1}, {3, 3, 3}, {}, CellSplit::kuhnSix), .1, 1), accurate(.499));
@@ -224,8 +224,8 @@ TEST(ElasticityAccurateBending, EnergyIsNeverNegative)
     }
 }
 
-// Elastic forces of a step from rest, M dv / h, are minus the gradient of the energy: also where elements are strained
-// by 20 % and turned by different angles, and with initial stress. A step of 1e-6 s makes A the mass.
+// Elastic forces of a step from rest, M dv / h, are minus the gradient of the energy: also in elements strained by 20 %
+// and rotated differently, and with initial stress. A step of 1e-6 s makes A equal the mass.
 TEST(ElasticityAccurateBending, ForcesAreTheEnergysGradient)
 {
     const TetMesh mesh = shuffledMesh(makeBox({1, 1, 1}, {3, 2, 2}, {}, CellSplit::kuhnSix), .1, 1);
@@ -269,7 +269,7 @@ TEST(ElasticityAccurateBending, ForcesAreTheEnergysGradient)
     }
 }
 
-// Bending stress M z / I at the surface in the middle of the bar: plain elements show a fifth less.
+// Bending stress M z / I at the surface in the middle of the bar: plain elements give a fifth less.
 TEST(ElasticityAccurateBending, StressIsThatOfTheBeam)
 {
     const TetMesh mesh = bendingBar("five", 4);
@@ -287,7 +287,7 @@ TEST(ElasticityAccurateBending, StressIsThatOfTheBeam)
         EXPECT_EQ(elementStress(body, e).xx, perElement[e].xx);
         if (middle.x > 4.5 && middle.x < 5.5) moment += mesh.tetVolume(e) * perElement[e].xx * (middle.z - .5);
     }
-    EXPECT_NEAR(moment, 5, .1 * 5);  // F (L - x); what is linear within elements is not in it
+    EXPECT_NEAR(moment, 5, .1 * 5);  // F (L - x); without the part that is linear within elements
 }
 
 TEST(ElasticityAccurateBending, KeepsMomentumAndTurnsFreely)
@@ -319,7 +319,7 @@ double bendingIterations(double nu, bool isAccurate, double tolerance)
     return sum / 60.0;
 }
 
-// The factor is that of the patches' elements: it knows the volume changes, so that nu does not matter.
+// The factor is that of the patches' elements: it includes mean dilatation, so that nu does not matter.
 TEST(ElasticityAccurateBending, TakesFewIterationsForAnyPoissonsRatio)
 {
     for (const double nu : {.3, .45, .49, .499})

@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-using Tips = std::array<double, 7>;  // height of the corner (4, 0, 0) [m] after the steps below
+using Tips = std::array<double, 7>;  // height of the corner (4, 0, 0) [m] after several numbers of steps
 constexpr std::array<int, 7> kTipSteps = {1, 11, 21, 31, 41, 51, 60};
 
 struct Beam
@@ -27,8 +27,8 @@ struct Beam
     int m_cellsAcross;
     double m_young;
     Tips m_reference;    // at 1e-8 without the tension term, by an independent prototype
-    double m_roundOff;   // half a unit of the last digit given there [m]
-    Tips m_withTension;  // our own, at 1e-8 with the tension term
+    double m_roundOff;   // half a unit of the reference's last digit [m]
+    Tips m_withTension;  // by this library, at 1e-8 with the tension term
 };
 
 void PrintTo(const Beam& beam, std::ostream* out)
@@ -39,7 +39,7 @@ void PrintTo(const Beam& beam, std::ostream* out)
 struct BeamRun
 {
     Tips m_tips = {};
-    double m_worstResidual = 0;  // largest |b - A dv| / |b| of any step, computed here [-]
+    double m_worstResidual = 0;  // maximum |b - A dv| / |b| over the steps, computed here [-]
     double m_meanIterations = 0;
 };
 
@@ -60,7 +60,7 @@ double norm(const std::vector<Vec3>& u)
     return std::sqrt(sum);
 }
 
-// |b - A dv| / |b| of the solve that just ended, b and dv put together here from the state and the velocities found.
+// |b - A dv| / |b| of the last solve, with b and dv computed here from the state and the new velocities.
 double trueResidual(const Body& body, const StepSettings& settings)
 {
     const BodyState& s = body.m_state;
@@ -121,7 +121,7 @@ void expectTips(const Tips& tips, const Tips& reference, double roundOff)
 class ElasticityBeam : public testing::TestWithParam<Beam>
 {
 protected:
-    // The tolerances 1e-8, 1e-6 and 1e-3; the last against our own 1e-8 digits.
+    // Checks the tolerances 1e-8, 1e-6 and 1e-3; the last one against this library's result at 1e-8.
     void expectDigits(const Tips& reference, double roundOff, bool tension);
 };
 
@@ -137,7 +137,7 @@ void ElasticityBeam::expectDigits(const Tips& reference, double roundOff, bool t
     expectTips(tight.m_tips, reference, roundOff);
     expectTips(middle.m_tips, reference, roundOff);
     expectTips(loose.m_tips, tight.m_tips, 0);
-    EXPECT_LE(loose.m_meanIterations, 3.2);  // promised for 12,288 tets at E = 1e6; the others need fewer
+    EXPECT_LE(loose.m_meanIterations, 3.2);  // documented for 12,288 tets at E = 1e6; the others need fewer
 }
 
 using ElasticityBeamSlow = ElasticityBeam;  // 12,288 tets

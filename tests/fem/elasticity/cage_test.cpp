@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A ball on a thin plate out of a block: cages must let the plate bend.
+// A ball on a thin plate clamped in a block: graded cages must not suppress bending of the plate.
 #include <gtest/gtest.h>
 
 #include "fem/scenes/elasticity_scenes.h"
@@ -24,7 +24,7 @@ SurfaceMesh ballOnAPlate()
     return joined(joined(block, plate), sphereSurface(0.2, {kPlateLength + 0.1, 0, 0}, 2));
 }
 
-/// How far the ball sinks under 1 N on it, with all nodes fixed that are within the block [m].
+/// Displacement of the ball under 1 N on it, with all nodes within the block fixed [m].
 double deflection(const Cage& cage, const SurfaceMesh& surface)
 {
     const RestShape shape(cage.m_mesh, elasticMaterial(kPlateYoung, 0.3), cage.m_filled);
@@ -45,15 +45,15 @@ double deflection(const Cage& cage, const SurfaceMesh& surface)
     return sum;
 }
 
-/// The plate as a beam with its load at the centre of the ball, which takes part of its length.
+/// Deflection of the plate as a beam loaded at the ball's centre; the ball covers part of its length.
 double beamDeflection()
 {
     const double L = kPlateLength - 0.1, I = kWidth * kThickness * kThickness * kThickness / 12, arm = 0.2;
     return (L * L * L / 3 + arm * L * L + arm * arm * L) / (kPlateYoung * I);
 }
 
-// Measured: .03 of the beam's deflection with cells of 0.15 m, .24 with 12,002 elements alike, .63 with 10,534 graded
-// ones. Linear tetrahedra, two or three across, are stiff; the beam itself is an upper bound but for a few per cent.
+// Measured over the beam's deflection: .03 with cells of 0.15 m, .24 with 12,002 equal elements, .63 with 10,534 graded
+// ones. Linear tetrahedra, two or three across, are too stiff; the beam is an upper bound within a few per cent.
 TEST(ElasticityCage, GradedPlatesBend)
 {
     const SurfaceMesh surface = ballOnAPlate();

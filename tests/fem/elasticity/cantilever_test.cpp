@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The clamped bar, 10 x 1 x 1 m, n cells through its thickness: bending, torsion, how far linear tetrahedra lock, and
-// how fast they converge. The bands were measured with an independent prototype.
+// The clamped bar, 10 x 1 x 1 m, n cells through its thickness: bending, torsion, locking of linear tetrahedra, and
+// their rate of convergence. The bands were measured with an independent prototype.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ RestShape bar(CellSplit split, int n, double poisson)
     return RestShape(makeBox({kLength, 1, 1}, {10 * n, n, n}, {}, split), material);
 }
 
-// F L^3 / (3 E I) + F L / (kappa G A) for F = 1 N.
+// Timoshenko's F L^3 / (3 E I) + F L / (kappa G A) for F = 1 N.
 double timoshenkoDeflection(double nu)
 {
     const double I = 1.0 / 12, A = 1, G = kYoung / (2 * (1 + nu)), kappa = 10 * (1 + nu) / (12 + 11 * nu);
@@ -57,8 +57,8 @@ double deflectionRatio(const RestShape& shape)
     return -weightedMean(faceAreas(shape.m_mesh, onEnd), u).z / timoshenkoDeflection(shape.m_material.m_poissonRatio);
 }
 
-// The stiffness against a torque at the free end, over St-Venant's G J / L with J = .1406 a^4. The torque is made of
-// forces proportional to area and to the distance from the axis; the angle is the one that its work belongs to.
+// The stiffness against a torque at the free end, over St-Venant's G J / L with J = .1406 a^4. The forces of the torque
+// are proportional to area and to the distance from the axis; the angle is the work-conjugate one.
 double torsionRatio(const RestShape& shape)
 {
     const std::vector<double> area = faceAreas(shape.m_mesh, onEnd);
@@ -76,7 +76,7 @@ double torsionRatio(const RestShape& shape)
     return torque / angle / (shape.m_material.lameMu() * 0.1406 / kLength);
 }
 
-// The mode whose shape, weighted by mass, moves most along the bar as a whole.
+// The mode with the largest mass-weighted mean displacement along the bar.
 const Mode& maxAxial(const std::vector<Mode>& modes, const std::vector<double>& mass)
 {
     const auto along = [&mass](const Mode& m) { return std::fabs(weightedMean(mass, m.m_shape).x); };
@@ -142,7 +142,7 @@ TEST_P(ElasticityCantilever, HasTheLowestBendingAndAxialFrequencies)
     EXPECT_NEAR(found.m_omega / axial, 1, 0.01);
 }
 
-// What the steps come to rest at is what the assembled stiffness says; at deflections of 1e-6 L, where both are linear.
+// Steps come to rest at the deflection of the assembled stiffness; at deflections of 1e-6 L, where both are linear.
 TEST_P(ElasticityCantilever, StepsComeToRestAtTheStaticDeflection)
 {
     const TetMesh mesh = makeBox({kLength, 1, 1}, {10 * GetParam().m_cells, GetParam().m_cells, GetParam().m_cells}, {},
@@ -173,8 +173,8 @@ class ElasticityCantileverSlow : public testing::TestWithParam<Case>
 {
 };
 
-// Linear elements converge with the square of their size once they resolve the bending; from 4 to 8 cells the order
-// is on its way there (measured 1.64 and 1.60, from 2 to 4 cells 1.52 and 1.22).
+// Linear elements converge with the square of their size once they resolve the bending; from 4 to 8 cells the measured
+// order is 1.64 and 1.60, from 2 to 4 cells 1.52 and 1.22.
 TEST_P(ElasticityCantileverSlow, ConvergesToTimoshenko)
 {
     std::array<double, 3> error;
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Kuhn8", CellSplit::kuhnSix, 8, {.949, .930, .836, .581}, 1.021, 1.10}),
     nameOf);
 
-// q L^4 / (8 E I) + q L^2 / (2 kappa G A) under its own weight q = rho A g, up to the band of the end load.
+// q L^4 / (8 E I) + q L^2 / (2 kappa G A) under its own weight q = rho A g, within the band of the end load.
 TEST(ElasticityCantileverOwnWeight, LocksLikeTheEndLoad)
 {
     const RestShape shape = bar(CellSplit::alternatingFive, 4, .3);

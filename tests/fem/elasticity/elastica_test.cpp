@@ -9,8 +9,8 @@ namespace bullet_fem
 namespace
 {
 
-// A load at the free end of an inextensible cantilever, in units of E I / L^2, and its deflection across and along
-// [Mattiasson 1981; the digits also follow from integrating theta'' = -k cos theta].
+// The load at the free end of an inextensible cantilever, in units of E I / L^2, and its transverse and axial
+// deflection [Mattiasson 1981; integrating theta'' = -k cos theta gives these digits, too].
 struct Elastica
 {
     double m_load;
@@ -19,8 +19,8 @@ struct Elastica
 };
 
 // The corotational bar follows the elastica through large rotations. 10 x 1 x 1 m, 8 cells through the thickness, nu 0:
-// the mesh locks by 3.4 % (its linear deflection is .966 of Timoshenko's), shear adds 0.7 %, so that all stay within 5
-// %. Nothing varies across the width without Poisson's effect: two cells do there.
+// the mesh locks by 3.4 % (its linear deflection is .966 of Timoshenko's), shear adds 0.7 %, so that all loads stay
+// within 5 %. At nu 0 the solution is constant across the width: two cells suffice.
 TEST(ElasticityElasticaSlow, FollowsTheElasticaAtLargeDeflections)
 {
     const double L = 10, E = 1e6, I = 1.0 / 12;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Without loads nothing gains energy: not from a strong deformation, not from elements that are flat or inside out.
+// Without loads the energy never grows: from strong deformation, and from flat or inverted elements.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-// A bar stretched by 30 %, bent, twisted by 130 degrees, with rough noise in positions and velocities; strains of
-// order 1.
+// Stretches a bar by 30 %, bends it, twists it by 130 degrees, and adds noise to positions and velocities; strains are
+// of order 1.
 void deformStrongly(Body& body)
 {
     RandomVectors random(9);
@@ -47,8 +47,8 @@ class ElasticityEnergySlow : public testing::TestWithParam<Run>
 {
 };
 
-// Without any damping of the material, at the tolerance of a game. Measured: the clamped bar never gains; the free one
-// keeps its rigid motion and gains up to 6e-13 of the start in a step as it tumbles, less than 1e-9 in all.
+// Without material damping, at a game's tolerance. Measured: the clamped bar never gains energy; the free one, which
+// tumbles, gains up to 6e-13 of the initial energy in a step, less than 1e-9 in total.
 TEST_P(ElasticityEnergySlow, NeverGrowsInTenThousandSteps)
 {
     NodePredicate fixed;
@@ -101,7 +101,7 @@ void forEachPosition(Body& body, const std::function<Vec3(const Vec3&)>& f)
         if (!body.m_state.m_fixed[i]) body.m_state.m_x[i] = f(body.m_state.m_x[i]);
 }
 
-// Pushes a node of the middle element through the opposite face and as far beyond.
+// Moves a node of the middle element through the opposite face, by an equal distance beyond.
 void invertOneElement(Body& body)
 {
     const TetMesh& mesh = body.m_model->mesh();
@@ -142,7 +142,7 @@ protected:
         return makeBody(makeBox({1, 1, 1}, {3, 3, 3}, {}, split), material, fixed);
     }
 
-    // Steps for 10 s; the energy may not pass where it started, nor anything become infinite.
+    // Steps for 10 s; the energy never exceeds its initial value, and all numbers stay finite.
     void expectRecovery(Body& body) const
     {
         GetParam().m_apply(body);
@@ -155,7 +155,8 @@ protected:
             ASSERT_LE(mechanicalEnergy(body), start) << "step " << k;  // false for a NaN too
         }
         EXPECT_TRUE(std::all_of(body.m_state.m_x.begin(), body.m_state.m_x.end(), isFinite));
-        // The clamped cube swings longest, with 2e-8 of the energy left (measured); shapes are back to a few 1e-4 then.
+        // The clamped cube vibrates longest, with 2e-8 of the energy left (measured); positions are then within a few
+        // 1e-4.
         EXPECT_LE(mechanicalEnergy(body), 1e-6 * start);
         EXPECT_NEAR(smallestVolumeRatio(body), 1, 0.01);
     }

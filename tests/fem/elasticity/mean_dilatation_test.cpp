@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Elements that share their volume change in patches: what they do against locking, and that they do no more.
+// Mean dilatation over patches of elements: it removes volumetric locking, and keeps other properties.
 #include <gtest/gtest.h>
 
 #include <Eigen/SparseCholesky>
@@ -46,7 +46,7 @@ bool atTip(const Vec3& X)
     return std::fabs(X.x - kBarLength) < 1e-9;
 }
 
-// Tip deflection over Timoshenko's F L^3 / (3 E I) + F L / (kappa G A).
+// Tip deflection divided by Timoshenko's F L^3 / (3 E I) + F L / (kappa G A).
 double tipRatio(const TetMesh& mesh, const Material& material)
 {
     const std::vector<double> area = faceAreas(mesh, atTip);
@@ -67,7 +67,7 @@ struct LockingCase
 
 constexpr std::array<double, 4> kRatios = {.3, .45, .49, .499};
 
-// Within half a percent: what a prototype with other code measured of the first two meshes is in it.
+// Within half a percent, which includes the results of an independent prototype for the first two meshes.
 TEST(ElasticityMeanDilatation, DoesNotLockNearTheIncompressible)
 {
     for (const LockingCase& c : {LockingCase{"kuhn", 2, {.504, .299, .104, .021}, {.685, .677, .669, .667}},
@@ -108,8 +108,7 @@ int modesBelow(const RestShape& shape, double shift)
     return static_cast<int>((factor.vectorD().array() < 0).count());
 }
 
-// A free block moves without strain in six ways, and no seventh is near: its lowest vibrations have some (2 / L)^2 G /
-// rho.
+// A free block has exactly six zero-energy modes: its lowest vibrations are at some (2 / L)^2 G / rho.
 TEST(ElasticityMeanDilatation, HasSixModesWithoutStrainAndNoSpuriousOnes)
 {
     const TetMesh five = makeBox({1, 1, 1}, {4, 4, 4}), kuhn = makeBox({1, 1, 1}, {4, 4, 4}, {}, CellSplit::kuhnSix);
@@ -128,7 +127,7 @@ TEST(ElasticityMeanDilatation, HasSixModesWithoutStrainAndNoSpuriousOnes)
         }
 }
 
-// A sum of squares, from small strains to elements that are inside out.
+// The energy is a sum of squares, from small strains to inverted elements.
 TEST(ElasticityMeanDilatation, EnergyIsNeverNegative)
 {
     Body body = makeBody(shuffledMesh(makeBox({1, 1, 1}, {3, 3, 3}, {}, CellSplit::kuhnSix), .1, 1), averaged(.499));
@@ -142,7 +141,8 @@ TEST(ElasticityMeanDilatation, EnergyIsNeverNegative)
     }
 }
 
-// Minus the gradient of the energy, of which rotations are no part at its minimum, is what the stresses make of forces.
+// Forces from the stresses equal minus the gradient of the energy; rotations do not contribute, as the energy is
+// minimal in them.
 TEST(ElasticityMeanDilatation, StressesAreTheEnergysGradient)
 {
     const TetMesh mesh = shuffledMesh(makeBox({1, 1, 1}, {3, 2, 2}, {}, CellSplit::kuhnSix), .1, 1);
@@ -181,7 +181,7 @@ TEST(ElasticityMeanDilatation, StressesAreTheEnergysGradient)
         }
 }
 
-// p = -K (V / V0 - 1) for small p: pushed from all sides, the block keeps its shape.
+// p = -K (V / V0 - 1) for small p: under uniform pressure the block keeps its shape.
 TEST(ElasticityMeanDilatation, HasTheBulkModulusUnderPressure)
 {
     for (const double nu : {.3, .45, .499})
@@ -210,8 +210,8 @@ TEST(ElasticityMeanDilatation, HasTheBulkModulusUnderPressure)
         }
 }
 
-// G J / L: elements that share volume changes are as stiff in shear as before. Plain elements have 1.30 and 1.37 at nu
-// .3.
+// Saint-Venant torsion, G J / L: mean dilatation keeps the shear stiffness. Plain elements have 1.30 and 1.37 of it at
+// nu .3.
 TEST(ElasticityMeanDilatation, TorsionIsStillRight)
 {
     for (const auto& [kind, low, high] : {std::tuple{"five", 1.25, 1.33}, std::tuple{"kuhn", 1.3, 1.38}})
@@ -239,7 +239,7 @@ TEST(ElasticityMeanDilatation, TorsionIsStillRight)
     }
 }
 
-// A body that gets another material goes on from where it is: its elements' rotations move to where they stand now.
+// A moving body gets another material: its motion continues, and its element rotations start from the present ones.
 TEST(ElasticityMeanDilatation, MayBeSwitchedWhileABodyMoves)
 {
     const TetMesh mesh = makeBox({1, .5, .5}, {5, 2, 2});
@@ -276,7 +276,7 @@ TEST(ElasticityMeanDilatation, KeepsMomentum)
     EXPECT_LE(norm(angularMomentum(body.m_state) - L), 1e-10 * norm(L));
 }
 
-// Bending under its own weight, the factor being that of the elements themselves.
+// Bending under its own weight, with the factor of the body's own elements.
 double meanIterations(double nu, MeanDilatation choice, double tolerance)
 {
     Body body = makeBody(makeBox({4, 1, 1}, {16, 4, 4}), averaged(nu, choice), atWall);

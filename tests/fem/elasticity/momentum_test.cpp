@@ -37,7 +37,7 @@ StepSettings settingsOf(const Solver& solver)
     return settings;
 }
 
-// Of a step's end velocities in its motion [-].
+// The weight theta of the end velocities in the displacement of a step [-].
 double theta(double numericalDamping)
 {
     return 0.5 * (1 + numericalDamping);
@@ -54,8 +54,7 @@ class ElasticityMomentum : public testing::TestWithParam<Solver>
 {
 };
 
-// x0 + n h v0 + g h^2 (n (n - 1) / 2 + theta n), the sum of the integrator's own steps; no node knows of its
-// neighbours.
+// x0 + n h v0 + g h^2 (n (n - 1) / 2 + theta n), the integrator's exact sum; elastic forces vanish.
 TEST_P(ElasticityMomentum, FreeFlightIsExact)
 {
     Body body = makeBody(makeBox({1, .5, .5}, {4, 2, 2}), elasticMaterial(1e6, .3));
@@ -68,13 +67,12 @@ TEST_P(ElasticityMomentum, FreeFlightIsExact)
     std::vector<Vec3> exact = body.m_model->mesh().restPositions();
     const double h = settings.m_step;
     for (Vec3& x : exact) x += n * h * v0 + h * h * (0.5 * n * (n - 1) + theta(settings.m_numericalDamping) * n) * g;
-    // A uniform increment is the rigid motion that the solve starts from: only rounding of 120 sums of order 20 m is
-    // left.
+    // A uniform increment is the rigid warm start of the solve: only rounding of 120 sums of order 20 m remains.
     EXPECT_LE(largestDistance(body.m_state.m_x, exact), 1e-11);
 }
 
-// p = p0 + n h F and L = L0 + h sum of the torques where the forces of a step act, y = x + (1 - theta) h v, for a
-// deformed, vibrating and turning body, however loosely solved.
+// p = p0 + n h F and L = L0 + h sum of the torques about y = x + (1 - theta) h v, the positions at which a step's
+// forces act, for a deformed, vibrating and rotating body, at any solver tolerance.
 TEST_P(ElasticityMomentum, FollowsTheLoads)
 {
     Body body = makeBody(makeBox({1, .5, .5}, {4, 2, 2}), elasticMaterial(1e5, .3));
@@ -93,7 +91,7 @@ TEST_P(ElasticityMomentum, FollowsTheLoads)
     {
         const BodyState before = s;
         step(body, settings);
-        // Violent steps are implicit Euler's.
+        // Violent steps switch to implicit Euler.
         const double damping = std::max(settings.m_numericalDamping, body.m_workspace.scratch().m_leastDamping);
         for (std::size_t i = 0; i < s.m_x.size(); ++i)
         {
@@ -143,7 +141,7 @@ public:
         for (int k = 0; k < steps; ++k) step(m_body, settings);
     }
 
-    /// |L| over what it was at the start [-].
+    /// |L| over its initial value [-].
     double momentumRatio() const { return norm(angularMomentum(m_body.m_state)) / m_momentum; }
 
     Body m_body;
@@ -152,8 +150,9 @@ private:
     double m_momentum = 0;
 };
 
-// What K' without torque balance about the deformed positions leaks in a second, solved exactly: .99987 at 6 rad/s and
-// .99814 at 12, by an independent prototype without the tension term. The step's correction restores it to rounding.
+// Angular momentum that K', which has a torque about deformed positions, loses within a second, solved exactly: .99987
+// at 6 rad/s and .99814 at 12, by an independent prototype without the tension term. The rigid correction of the step
+// restores it to rounding.
 TEST(ElasticitySpin, RigidCorrectionKeepsAngularMomentum)
 {
     for (const auto& [omega, kept] : {std::pair<double, double>{6, .99987}, std::pair<double, double>{12, .99814}})
@@ -186,8 +185,8 @@ TEST(ElasticitySpin, SlowSpinKeepsItsEnergy)
     }
 }
 
-// The circle that the steps go round in is wider than the plate by (omega h)^2 / 2, a strain that the first two steps
-// put in (2 % of the energy at 6 rad/s). From then on nothing may grow, with vibrations of 1 cm/s everywhere.
+// The circle of the discrete trajectory is wider than the plate by (omega h)^2 / 2, a strain that develops in the first
+// two steps (2 % of the energy at 6 rad/s). From then on the energy never grows, with vibrations of 1 cm/s everywhere.
 TEST(ElasticitySpin, FastSpinGainsNoEnergy)
 {
     Plate plate(6, {.01, .01, .01});
@@ -201,7 +200,7 @@ TEST(ElasticitySpin, FastSpinGainsNoEnergy)
         ASSERT_LE(mechanicalEnergy(plate.m_body), after) << "step " << k;
         ASSERT_LE(kineticEnergy(plate.m_body.m_state), kineticAtStart) << "step " << k;
     }
-    EXPECT_GT(mechanicalEnergy(plate.m_body), 0.95 * kineticAtStart);  // neither is it braked
+    EXPECT_GT(mechanicalEnergy(plate.m_body), 0.95 * kineticAtStart);  // nor is it damped
 }
 
 }  // namespace

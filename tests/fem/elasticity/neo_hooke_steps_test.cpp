@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What steps of Neo-Hookean bodies promise: no element stays inverted, energy falls, and the same bits whoever takes
-// them (docs/materials.md, Large strain).
+// Steps of Neo-Hookean bodies: no element stays inverted, energy falls, and results are bitwise equal for all ways to
+// step (docs/materials.md, Large strain).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ protected:
     }
 };
 
-// Top and bottom led together until a tenth of the height is left, held, and let go.
+// Top and bottom faces are moved together to a tenth of the height, held, and released.
 TEST_P(NeoHookeSteps, ACrushedCubeRecovers)
 {
     Material material = movedNeoHookean(GetParam().m_nu, 1e5);
@@ -106,7 +106,7 @@ Body wildBody(WildStart start, const Material& material)
     return body;
 }
 
-// From every shape and with velocities that would carry nodes through each other.
+// From any deformation, with velocities that would carry nodes through each other.
 TEST_P(NeoHookeSteps, EnergyStaysBelowThatOfTheStart)
 {
     for (const WildStart start : {WildStart::mirrored, WildStart::flat, WildStart::stretched, WildStart::kicked})
@@ -128,7 +128,7 @@ TEST_P(NeoHookeSteps, EnergyStaysBelowThatOfTheStart)
         }
 }
 
-// Flat and inside out, it finds its way back; damped, so that it comes to rest.
+// Flat and inverted elements recover; the material is damped, so that the body comes to rest.
 TEST_P(NeoHookeSteps, NoElementStaysInsideOut)
 {
     for (const WildStart start : {WildStart::mirrored, WildStart::flat, WildStart::kicked})
@@ -150,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(Steps, NeoHookeSteps,
                                     (step.param.m_damping > 0 ? "_Euler" : "_SecondOrder");
                          });
 
-// The cube of Bullet's VolumetricDeformable, E 50 Pa, under the weight of one and of two of its boxes, which is E times
-// their face: Hooke's law lets elements be pressed through themselves.
+// The cube of Bullet's VolumetricDeformable, E 50 Pa, under one and two of its boxes, whose weight is E times their
+// face: under Hooke's law elements would invert.
 TEST(NeoHooke, BoxesAsHeavyAsEPressNoElementInsideOut)
 {
     for (const double boxes : {1.0, 2.0})
@@ -176,13 +176,13 @@ TEST(NeoHooke, BoxesAsHeavyAsEPressNoElementInsideOut)
         }
 }
 
-// Free and damped by nothing, momentum is exact whatever the strain.
+// For a free undamped body momentum is exact at any strain.
 TEST(NeoHooke, MomentumIsExact)
 {
     Body body = makeBody(makeBox({1, 0.6, 0.5}, {4, 3, 3}), movedNeoHookean());
     disturb(body);
     std::fill(body.m_loads.m_force.begin(), body.m_loads.m_force.end(), Vec3());
-    for (Vec3& v : body.m_state.m_v) v *= 20;  // with corrections, too
+    for (Vec3& v : body.m_state.m_v) v *= 20;  // includes quasi-Newton corrections
     const Vec3 p = linearMomentum(body.m_state), L = angularMomentum(body.m_state);
     for (int k = 0; k < 50; ++k) bullet_fem::step(body, StepSettings());
     EXPECT_LE(norm(linearMomentum(body.m_state) - p), 1e-10 * norm(L));
@@ -198,7 +198,7 @@ Body disturbedNeoHookean(const std::shared_ptr<const BodyModel>& model)
 {
     Body body(model);
     disturb(body);
-    for (Vec3& v : body.m_state.m_v) v *= 20;  // with corrections, too
+    for (Vec3& v : body.m_state.m_v) v *= 20;  // includes quasi-Newton corrections
     return body;
 }
 

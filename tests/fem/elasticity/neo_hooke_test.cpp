@@ -34,7 +34,7 @@ double neoHookeVolumeTerm(const Material& material, double J)
     return 0.5 * material.lameLambda() * (J * J - 1) - material.lameMu();
 }
 
-// Where a rising function is zero.
+// The zero of an increasing function.
 double rootOf(const std::function<double(double)>& f, double low, double high)
 {
     for (int k = 0; k < 200; ++k)
@@ -45,7 +45,7 @@ double rootOf(const std::function<double(double)>& f, double low, double high)
     return low;
 }
 
-// Nominal stress of a bar of that stretch, its sides free; and of a sheet that two pairs of sides are pulled by.
+// Nominal stress at a given stretch: of a bar with free sides, and of a sheet in equibiaxial tension.
 double uniaxialStress(const Material& material, double stretch)
 {
     const double mu = material.lameMu();
@@ -62,7 +62,7 @@ double equibiaxialStress(const Material& material, double stretch)
     return (mu * stretch * stretch + neoHookeVolumeTerm(material, stretch * stretch * s)) / stretch;
 }
 
-// A free block whose faces across some axes are pulled.
+// A free block with tractions on its faces across some axes.
 class PulledBlock
 {
 public:
@@ -139,7 +139,7 @@ TEST(NeoHooke, SheetsStretchAsTheFormulaSays)
     }
 }
 
-// A block all of whose surface is led to the strain F; what is within follows.
+// A block whose surface nodes are prescribed by the deformation gradient F; the inner nodes are free.
 class LedBlock
 {
 public:
@@ -183,7 +183,7 @@ Mat3 nominalStress(const Material& material, const Mat3& F)
     return material.lameMu() * F + neoHookeVolumeTerm(material, J) * transpose(inverse(F));
 }
 
-// Simple shear to 100 %, crushing to a tenth of the height, and both at once.
+// Simple shear to 100 %, compression to a tenth of the height, and both combined.
 TEST(NeoHooke, PrescribedBlocksHaveTheStressOfTheFormula)
 {
     for (const double nu : {0.0, 0.3, 0.45})
@@ -201,7 +201,7 @@ TEST(NeoHooke, PrescribedBlocksHaveTheStressOfTheFormula)
     }
 }
 
-// At small strain it is Hooke's law with the same E and nu: what differs is of second order.
+// At small strain the law equals Hooke's with equal E and nu, with an error of second order.
 TEST(NeoHooke, IsHookesAtSmallStrain)
 {
     for (const double nu : {0.0, 0.3, 0.45})
@@ -231,7 +231,7 @@ TEST(NeoHooke, IsHookesAtSmallStrain)
     }
 }
 
-// Layers of both laws, pulled: each has the stress of its own.
+// Layers of both laws in tension: each has the stress of its own law.
 TEST(NeoHooke, StandsBesideHookesInRegions)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {3, 2, 2}, {}, CellSplit::kuhnSix);

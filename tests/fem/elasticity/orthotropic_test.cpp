@@ -22,7 +22,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSmallStrain = 1e-5;  // of the bars: what is not linear in it is below its square
+constexpr double kSmallStrain = 1e-5;  // of the bars: nonlinear terms are below its square
 
 Orthotropic sprucelike()
 {
@@ -41,7 +41,7 @@ Material materialOf(const Orthotropic& constants, double density = 1000)
     return material;
 }
 
-// A free block whose faces have the tractions of a homogeneous stress.
+// A free block loaded by the tractions of a homogeneous stress.
 class StressedBlock
 {
 public:
@@ -50,7 +50,7 @@ public:
     {
     }
 
-    // The mean strain under it.
+    // The mean strain under that stress.
     Mat3 strainUnder(const Mat3& stress)
     {
         const TetMesh& mesh = m_body.m_model->mesh();
@@ -65,7 +65,8 @@ public:
                 for (std::size_t i = 0; i < area.size(); ++i)
                     m_body.m_loads.m_force[i] += (2 * side - 1) * area[i] * stress.column(axis);
             }
-        // What is left is a rigid turn: a bar that shears turns until it is pulled along a line, which little asks for.
+        // The remainder is a rigid rotation: a sheared bar turns until it is aligned with the traction, with almost no
+        // restoring moment.
         EXPECT_LE(relax(m_body, 1e-12), 1e-3 * kSmallStrain);
         for (int axis = 0; axis < 3; ++axis)
         {
@@ -118,7 +119,7 @@ TEST(ElasticityOrthotropic, BarsStretchAndNarrowByTheirNineConstants)
     }
 }
 
-// Off the axes 1 / E = c^4 / E1 + (1 / G12 - 2 nu12 / E1) s^2 c^2 + s^4 / E2, and the bar shears as it is pulled.
+// In off-axis tension 1 / E = c^4 / E1 + (1 / G12 - 2 nu12 / E1) s^2 c^2 + s^4 / E2, and the bar shears.
 TEST(ElasticityOrthotropic, OffAxisBarsFollowTheTransformedCompliance)
 {
     Orthotropic m = sprucelike();
@@ -139,7 +140,7 @@ TEST(ElasticityOrthotropic, OffAxisBarsFollowTheTransformedCompliance)
     }
 }
 
-// A thin ring whose fibres run around it, under a pressure p from within [Lekhnitskii 1968]: with k^2 = E1 / E2,
+// A thin ring with circumferential fibres under internal pressure p [Lekhnitskii 1968]: with k^2 = E1 / E2,
 //     sigma_r = A r^(k-1) + B r^(-k-1),   u = r (sigma_theta / E1 - nu12 sigma_r / E1).
 class FibreRing
 {
@@ -161,7 +162,7 @@ public:
         m_body = std::make_unique<Body>(makeBody(m_mesh, ElementMaterials::ofElements(perElement), {}, 0.5));
     }
 
-    // Mean movement outwards at the inner and the outer rim.
+    // Mean radial displacement of the inner and of the outer rim.
     std::pair<double, double> widen(double pressure)
     {
         const auto onRim = [](double r)
@@ -194,7 +195,7 @@ private:
 
     static TetMesh ringMesh()
     {
-        // A box of as many cells, whose last column of nodes is its first one.
+        // A box with that many cells, whose last column of nodes is identified with the first.
         const TetMesh box = makeBox({kAround, kRings, 1}, {kAround, kRings, 1}, {}, CellSplit::kuhnSix);
         std::vector<Vec3> X;
         std::vector<int> place;
@@ -220,7 +221,7 @@ TEST(ElasticityOrthotropic, HoopFibresHoldThePressureOfARing)
 {
     const Orthotropic m = Orthotropic::transverselyIsotropic(9e6, 1e6, 0.3, 0.3, 4e5);
     constexpr double p = 10, a = FibreRing::kInner, b = FibreRing::kOuter, k = 3;  // E1 / E2 = k^2
-    // -p at a and 0 at b.
+    // Boundary conditions: sigma_r = -p at a and 0 at b.
     const double B = -p / (std::pow(a, -k - 1) - std::pow(b, -2 * k) * std::pow(a, k - 1)),
                  A = -B * std::pow(b, -2 * k);
     const auto movement = [&](double r)
@@ -231,11 +232,11 @@ TEST(ElasticityOrthotropic, HoopFibresHoldThePressureOfARing)
     const auto [inner, outer] = FibreRing(m, true).widen(p);
     EXPECT_NEAR(inner, movement(a), 0.01 * movement(a));
     EXPECT_NEAR(outer, movement(b), 0.01 * movement(b));
-    // Straight fibres of the same stiffness hold a third as well.
+    // Straight fibres of equal stiffness resist a third as well: the ring widens more than twice as far.
     EXPECT_GT(FibreRing(m, false).widen(p).first, 2 * movement(a));
 }
 
-// Isotropic constants make Hooke's law, step by step, as it swings and turns.
+// Isotropic constants reproduce Hooke's law in each step of a vibrating, rotating body.
 TEST(ElasticityOrthotropic, IsotropicConstantsMoveAsHookesLaw)
 {
     Material hooke = elasticMaterial(1e5, 0.3);
@@ -265,7 +266,7 @@ TEST(ElasticityOrthotropic, IsotropicConstantsMoveAsHookesLaw)
     }
 }
 
-// A free block has six motions without energy, and no other near them.
+// A free block has exactly six zero-energy modes.
 TEST(ElasticityOrthotropic, AFreeBodyHasSixZeroModes)
 {
     for (const double askew : {0.0, 0.7})
@@ -292,8 +293,9 @@ struct FlightCase
     double m_strain, m_kick;  // [-], [m/s]
 };
 
-// Stretched, crushed and twisted, spinning and kicked, without damping: energy is never below 0 and never above the
-// start's, and momenta stay. With sym(R^T dF) in place of dS in A the second has 500 times its energy after 600 steps.
+// Stretched, compressed and twisted, spinning, with initial velocities, undamped: the energy is never negative, never
+// exceeds its initial value, and momenta are constant. With sym(R^T dF) in place of dS in A the second case would have
+// 500 times its energy after 600 steps.
 TEST(ElasticityOrthotropic, EnergyIsNeverNegativeAndNeverGrows)
 {
     Orthotropic m = sprucelike();
@@ -328,7 +330,7 @@ TEST(ElasticityOrthotropic, EnergyIsNeverNegativeAndNeverGrows)
     }
 }
 
-// A body that is turned has its stress turned, and its material with it.
+// Rotating a body rotates its stress and its material axes.
 TEST(ElasticityOrthotropic, StressesTurnWithTheBody)
 {
     Orthotropic m = sprucelike();
@@ -357,7 +359,7 @@ TEST(ElasticityOrthotropic, StressesTurnWithTheBody)
     EXPECT_NEAR(mechanicalEnergy(straight), 0.5 * contraction(strain, stressOf(m.stiffness(), strain)), 1e-9 * 1e6);
 }
 
-// Heat strains it by the same in all directions, whatever its stiffness: where nothing holds it, without stress.
+// Equal thermal strain in all directions gives no stress in a free body, for any stiffness.
 TEST(ElasticityOrthotropic, HeatExpandsItFreely)
 {
     Body body = makeBody(makeBox({1, 0.8, 0.6}, {2, 2, 2}), materialOf(sprucelike()), {}, 0.5);
@@ -370,12 +372,12 @@ TEST(ElasticityOrthotropic, HeatExpandsItFreely)
     for (std::size_t i = 0; i < X.size(); ++i) EXPECT_LT(norm((x[i] - x[0]) - 1.0001 * (X[i] - X[0])), 1e-9) << i;
 }
 
-// An orthotropic half and an isotropic one in a row, pulled: Reuss.
+// An orthotropic half and an isotropic one in series, in tension: Reuss.
 TEST(ElasticityOrthotropic, RegionsMayBeIsotropic)
 {
     const TetMesh mesh = makeBox({2, 0.3, 0.3}, {16, 3, 3}, {}, CellSplit::kuhnSix);
     Orthotropic m = sprucelike();
-    m.m_poisson = {0, 0, 0};  // so that the halves narrow alike
+    m.m_poisson = {0, 0, 0};  // so that both halves contract equally
     std::vector<int> labels;
     for (const Tet& tet : mesh.tets())
     {

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-// A box whose inner nodes are moved at random by up to a fifth of a cell, so that no two elements are alike.
+// A box whose inner nodes are moved at random by up to a fifth of a cell, so that all elements differ.
 TetMesh irregularBox(const Vec3& size, const std::array<int, 3>& cells, CellSplit split)
 {
     const TetMesh regular = makeBox(size, cells, {}, split);
@@ -54,9 +54,8 @@ class ElasticityPatch : public testing::TestWithParam<Patch>
 {
 };
 
-// The boundary is moved by u = G X with a full, unsymmetric G; the inner nodes must find u = G X too, from wherever
-// they start. 1e-10 relative to the largest displacement is what rounding leaves of a converged Newton iteration in
-// double.
+// The boundary is moved by u = G X with a full, unsymmetric G; the inner nodes take u = G X from any start. 1e-10
+// relative to the largest displacement is the rounding of a converged Newton iteration in double precision.
 TEST_P(ElasticityPatch, InteriorFollowsAnAffineBoundary)
 {
     const Patch& p = GetParam();
@@ -112,8 +111,8 @@ protected:
     double m_force = kPatchYoung * kSide * kSide * GetParam().m_strain;  // E A (lambda - 1) [N]
 };
 
-// End sections held as in the exact state, sides free: the rest follows, and the end carries F = E A (lambda - 1) at
-// every stretch, because the corotational stress is linear in it.
+// End sections are held in the exact state, sides are free: the inner nodes follow, and the end carries F = E A (lambda
+// - 1) at each stretch, because the corotational stress is linear in it.
 TEST_P(ElasticityBar, ReactionIsLinearInTheStretch)
 {
     Body body = makeBody(
@@ -145,8 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Strains, ElasticityBar,
 
 using ElasticityPulledBar = ElasticityBar;
 
-// Pulled at both ends by F spread by area and held by nothing at all, the bar is longer by F L / (E A) and thinner by
-// nu F / (E A). It may turn a little on the way, so distances from its corners are compared.
+// A free bar pulled at both ends by F, distributed by area, is longer by F L / (E A) and thinner by nu F / (E A). It
+// may rotate slightly, so distances from its corners are compared.
 TEST_P(ElasticityPulledBar, FreeBarTakesTheExactShape)
 {
     // A short step: the torque of dead loads on a free body is explicit, so that h sqrt(F L / I) must stay below 1.
@@ -163,7 +162,7 @@ TEST_P(ElasticityPulledBar, FreeBarTakesTheExactShape)
         double worst = 0;
         for (std::size_t i = 0; i < x.size(); ++i)
             worst = std::max(worst, std::fabs(norm(x[i] - x[c]) - norm(m_exact[i] - m_exact[c])));
-        EXPECT_LE(worst, 1e-6 * m_moved);  // steps shrink by 0.6 to 0.9 from one to the next: ten times the last one
+        EXPECT_LE(worst, 1e-6 * m_moved);  // steps shrink by 0.6 to 0.9 each: ten times the last one
     }
 }
 

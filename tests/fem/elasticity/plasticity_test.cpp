@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Materials that yield, against the formulas of bars and material points (docs/materials.md, Plasticity).
+// Yielding materials against formulas of bars and material points (docs/materials.md, Plasticity).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TetMesh barOfSix()
     return makeBox({1, 0.25, 0.25}, {4, 1, 1}, {}, CellSplit::kuhnSix);
 }
 
-// A free bar that is pulled at its ends: the same stress everywhere, and the elements know no other.
+// A free bar in tension at its ends: the stress is uniform.
 class PulledBar
 {
 public:
@@ -46,8 +46,8 @@ public:
         m_right = faceAreas(mesh, [](const Vec3& X) { return X.x > 1 - 1e-9; });
     }
 
-    // Goes to equilibrium under a nominal stress [Pa] along its axis, and returns the strain along it. A step without
-    // the velocities of those before takes most of what is left of vibrations, and of flow H / (E + H).
+    // Relaxes to equilibrium under a nominal axial stress [Pa], and returns the axial strain. A step from zero velocity
+    // removes most of the remaining vibration, and H / (E + H) of the plastic flow.
     double pull(double stress)
     {
         StepSettings settings;
@@ -97,8 +97,8 @@ TEST(Plasticity, ABarYieldsAtTheYieldStress)
         }
 }
 
-// The bilinear law of the textbooks: strain = sigma / E + (sigma - sigma_y) / H, back along E, and yielding again where
-// it left off.
+// The bilinear law: strain = sigma / E + (sigma - sigma_y) / H, unloading along E, and reloading to yield at the former
+// maximum.
 TEST(Plasticity, ABarHardensUnloadsAndStaysLonger)
 {
     for (const double nu : {0.3, 0.45})
@@ -112,20 +112,20 @@ TEST(Plasticity, ABarHardensUnloadsAndStaysLonger)
         {
             const double along = bar.pull(load * kYield);
             EXPECT_NEAR(along, plastic + load * unit, close);
-            // Plastic strain keeps the volume: half of it across, and Poisson's ratio of the rest.
+            // Plastic strain preserves volume: half of it transversely, and Poisson's ratio of the elastic part.
             EXPECT_NEAR(bar.strain(1), -0.5 * plastic - nu * load * unit, close);
             EXPECT_NEAR(bar.strain(2), -0.5 * plastic - nu * load * unit, close);
         }
         const double flown = bar.plasticStrain();
         EXPECT_NEAR(bar.pull(1.98 * kYield), plastic + 1.98 * unit, close);
-        EXPECT_NEAR(bar.pull(-1.98 * kYield), plastic - 1.98 * unit, close);  // isotropic: the same in pressure
+        EXPECT_NEAR(bar.pull(-1.98 * kYield), plastic - 1.98 * unit, close);  // isotropic: equal in compression
         EXPECT_NEAR(bar.plasticStrain(), flown, 0.001 * plastic);
         EXPECT_NEAR(bar.pull(-2.5 * kYield), 0.5 * plastic - 2.5 * unit, close);
         EXPECT_NEAR(bar.plasticStrain(), 1.5 * plastic, 0.01 * plastic);
     }
 }
 
-// One element, all of whose nodes are held where F puts them: a material point.
+// A single element with all nodes prescribed by F: a material point.
 class Point
 {
 public:
@@ -155,7 +155,7 @@ public:
 
 const Mat3 kStretch = {{{1.01, 0.004, 0}, {0.004, 0.998, -0.003}, {0, -0.003, 1.002}}};
 
-// The stress comes back along the radius: the same pressure, the same direction of the deviator, the size of sigma_y.
+// Radial return: pressure and the deviator's direction are kept, and its size becomes sigma_y.
 TEST(Plasticity, StressReturnsRadially)
 {
     Point elastic(elasticMaterial(kElastic, 0.3), kStretch), plastic(yielding(), kStretch);
@@ -174,7 +174,7 @@ TEST(Plasticity, StressReturnsRadially)
     EXPECT_NEAR(plastic.m_body.m_state.m_equivalentPlasticStrain[0], (beyond - kYield) / (3 * mu), 1e-9);
 }
 
-// 3 mu gamma of the overstress goes, H gamma comes to the yield stress.
+// The overstress falls by 3 mu gamma, and the yield stress grows by H gamma.
 TEST(Plasticity, HardeningMeetsTheReturningStress)
 {
     Point elastic(elasticMaterial(kElastic, 0.3), kStretch), plastic(yielding(kHardening), kStretch);
@@ -192,7 +192,7 @@ TEST(Plasticity, PressureFromAllSidesNeverYields)
     EXPECT_EQ(point.m_body.m_state.m_equivalentPlasticStrain[0], 0);
 }
 
-// What is beyond the yield stress decays as exp(-creep t), whatever the step.
+// The overstress decays as exp(-creep t), for any step.
 TEST(Plasticity, CreepHasItsRate)
 {
     for (const double creep : {0.5, 5.0, 50.0})
@@ -212,7 +212,7 @@ TEST(Plasticity, CreepHasItsRate)
         }
 }
 
-// Beyond the largest plastic strain it is elastic again, with the modulus of shear.
+// Beyond the maximum plastic strain the response is elastic, with the shear modulus.
 TEST(Plasticity, StrainBeyondTheLargestPlasticOneIsElastic)
 {
     Material material = yielding();
@@ -225,7 +225,7 @@ TEST(Plasticity, StrainBeyondTheLargestPlasticOneIsElastic)
     EXPECT_NEAR(plastic.vonMises(), elastic.vonMises() - 3 * material.lameMu() * 0.1, 1e-6 * kElastic);
 }
 
-// A turn is no strain, and what flowed turns along.
+// A rotation is no strain, and the plastic strain rotates with the body.
 TEST(Plasticity, TurnsWithTheBody)
 {
     const Mat3 Q = rotationAbout({1, -2, 3}, 2.4);
@@ -244,7 +244,7 @@ TEST(Plasticity, TurnsWithTheBody)
     EXPECT_GT(turned.vonMises(), 0.5 * kYield);
 }
 
-// The deviator of what was given yields, too.
+// The deviator of the initial stress counts for yielding.
 TEST(Plasticity, InitialStressCounts)
 {
     Point point(yielding(), Mat3::identity());
@@ -272,7 +272,7 @@ TEST(Plasticity, EnergyOnlyFalls)
     for (const double creep : {Material::kInfinite, 10.0})
         for (const double nu : {0.3, 0.45})
         {
-            // Held at one end, for what spins free gains energy in implicit Euler's step, plastic or not.
+            // Fixed at one end, because free spinning bodies gain energy in implicit Euler's step, plastic or not.
             Body body = thrown(creep, nu, [](const Vec3& X) { return X.x == 0; });
             double energy = mechanicalEnergy(body);
             for (int k = 0; k < 200; ++k)
@@ -287,7 +287,7 @@ TEST(Plasticity, EnergyOnlyFalls)
         }
 }
 
-// Flow by itself, at positions that stand still, never gives the body energy: in elements of any shape.
+// Plastic flow at fixed positions never increases the energy, in elements of any shape.
 TEST(Plasticity, FlowTakesEnergy)
 {
     Material material = yielding();
@@ -413,7 +413,7 @@ TEST(Plasticity, StepsDoNotAllocate)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// Who gets a material that does not yield keeps the dents, and gets no more.
+// With a new material that does not yield the plastic strain stays and does not grow.
 TEST(Plasticity, DentsOutliveTheMaterial)
 {
     Body body = thrown(Material::kInfinite, 0.3);
@@ -426,7 +426,7 @@ TEST(Plasticity, DentsOutliveTheMaterial)
     check(snapshotOf(body), *body.m_model);
 }
 
-// A material that yields far beyond what happens: nothing but the rounding of rotations that are found twice a step.
+// A yield stress far above the stress: the only difference is rounding, from rotations computed twice a step.
 TEST(Plasticity, BehavesElasticallyBelowTheYieldStress)
 {
     Material strong = elasticMaterial(kElastic, 0.3);

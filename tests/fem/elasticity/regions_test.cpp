@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies of several materials against closed formulas: layers side by side and one after the other, bending of a
-// laminate, a stiff ball in a soft one.
+// Bodies of several materials against closed formulas: layers in parallel and in series, bending of a laminate, a stiff
+// sphere in a soft one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,8 +61,8 @@ std::vector<Vec3> forcesOf(const Body& body)
     return force;
 }
 
-// With one Poisson's ratio both layers become thinner alike, so that a constant strain is the solution: the bar's force
-// is (E_1 A_1 + E_2 A_2) eps (Voigt), and every layer has its stress E eps.
+// With equal Poisson's ratios both layers contract equally, so that uniform strain is the solution: the bar's force is
+// (E_1 A_1 + E_2 A_2) eps (Voigt), and each layer has its stress E eps.
 TEST(ElasticityRegions, LayersSideBySideShareTheStrain)
 {
     const double strain = .01, nu = .3, E[2] = {1e6, 3e7};
@@ -94,7 +94,7 @@ TEST(ElasticityRegions, LayersSideBySideShareTheStrain)
     }
 }
 
-// Without lateral strains the halves of a bar carry one force and add their elongations (Reuss).
+// Without lateral strains the halves of a bar carry equal forces and add their elongations (Reuss).
 TEST(ElasticityRegions, HalvesInSeriesShareTheForce)
 {
     const double force = 500, E[2] = {1e6, 3e7}, area = kRegionSide * kRegionSide;
@@ -114,9 +114,9 @@ TEST(ElasticityRegions, HalvesInSeriesShareTheForce)
     for (const Stress& s : stress) EXPECT_NEAR(s.xx, force / area, 1e-6 * force / area);
 }
 
-// One half yields, and hardens, the other does not: under a slow pull the force is the same in both, and what stays
-// when it is gone is (sigma - sigma_y) / H of the one half alone, less what the other half, which does not become
-// thinner, holds at the border: 9 % of a half that is twice as long as wide.
+// One half yields and hardens, the other is elastic: under a slow pull the force is equal in both, and the permanent
+// elongation is (sigma - sigma_y) / H of the yielding half, minus the constraint of the other half, which does not
+// contract at the interface: 9 % of a half twice as long as wide.
 TEST(ElasticityRegions, YieldEachByItsOwnLaw)
 {
     const double E = 1e6, yield = 2e3, hardening = 2e5, stress = 4e3;
@@ -144,7 +144,7 @@ TEST(ElasticityRegions, YieldEachByItsOwnLaw)
 
 constexpr double kBeamLength = 10;  // [m]; the section is 1 m x 1 m
 
-// Tip deflection of a clamped beam under 1 N, of layers of E[0] below and E[1] above.
+// Tip deflection under 1 N of a clamped beam of two layers, with E = lower below and upper above.
 double tipDeflection(double lower, double upper, int n)
 {
     const TetMesh mesh = makeBox({kBeamLength, 1, 1}, {10 * n, n, n});
@@ -156,15 +156,15 @@ double tipDeflection(double lower, double upper, int n)
     return -weightedMean(area, LinearSystem(RestShape(mesh, materials), atFoot).displacement(force)).z;
 }
 
-// Bending stiffness of the transformed section: sum of E_i (I_i + A_i d_i^2) about the axis without strain
-// [Gere & Goodno, Mechanics of Materials, Composite Beams].
+// Bending stiffness of the transformed section: sum of E_i (I_i + A_i d_i^2) about the neutral axis [Gere & Goodno,
+// Mechanics of Materials, Composite Beams].
 double bendingStiffness(double lower, double upper)
 {
     const double axis = (lower * .25 + upper * .75) / (lower + upper), own = std::pow(.5, 3) / 12;
     return lower * (own + .5 * std::pow(axis - .25, 2)) + upper * (own + .5 * std::pow(axis - .75, 2));
 }
 
-// Of Euler's deflection, extrapolated to elements of no size, whose error goes with the square of theirs.
+// Deflection over Euler's, extrapolated to zero element size with an error of second order.
 double finestBending(double lower, double upper)
 {
     const double exact = std::pow(kBeamLength, 3) / (3 * bendingStiffness(lower, upper));
@@ -172,7 +172,7 @@ double finestBending(double lower, double upper)
     return 1 / (fine + (fine - coarse) / (36. / 16 - 1));
 }
 
-// What shear and the clamped section make of Euler's deflection is measured by the uniform beam.
+// The contributions of shear and of the clamped section are taken from the homogeneous beam.
 TEST(ElasticityRegions, LaminateBendsAsItsTransformedSection)
 {
     const double uniform = finestBending(1e6, 1e6);
@@ -187,7 +187,8 @@ double bulkModulus(const Material& m)
     return m.lameLambda() + 2. / 3 * m.lameMu();
 }
 
-// The bulk modulus that a ball shows whose surface is moved outward evenly: twice the energy over 9 eps^2 V.
+// The apparent bulk modulus of a sphere with uniform radial displacement of its surface: twice the energy over 9 eps^2
+// V.
 double apparentBulkModulus(const TetMesh& mesh, const ElementMaterials& materials)
 {
     const double strain = 1e-4;
@@ -204,12 +205,12 @@ double apparentBulkModulus(const TetMesh& mesh, const ElementMaterials& material
 
 struct Inclusion
 {
-    double m_young, m_poisson;  // of the ball within, in a matrix of 1e6 Pa and .3
+    double m_young, m_poisson;  // of the inner sphere; the matrix has 1e6 Pa and .3
 };
 
-// A ball within a ball has Hashin's bulk modulus exactly, which is Hashin and Shtrikman's bound [Hashin 1962]:
-// K = K_m + f / (1 / (K_i - K_m) + 3 (1 - f) / (3 K_m + 4 G_m)).
-// Displacements of elements are stiffer than all, by 2.7 % of K with eight elements from the middle to the surface.
+// A sphere within a sphere has exactly Hashin's bulk modulus, which is Hashin and Shtrikman's bound [Hashin 1962]: K =
+// K_m + f / (1 / (K_i - K_m) + 3 (1 - f) / (3 K_m + 4 G_m)). Displacement elements are stiffer, by 2.7 % of K with
+// eight elements along the radius.
 TEST(ElasticityRegions, BallInABallHasHashinsBulkModulus)
 {
     const Material matrix = elasticMaterial(1e6, .3, 1);
@@ -233,7 +234,7 @@ TEST(ElasticityRegions, BallInABallHasHashinsBulkModulus)
     }
 }
 
-// Nearly incompressible beside compressible, some elements with patches and some without.
+// A nearly incompressible and a compressible material: some elements are in patches, some are not.
 ElementMaterials mixture(const TetMesh& mesh, double ratio)
 {
     return inRegions(mesh, [](const Vec3& X) { return X.x < .3   ? 1
@@ -244,7 +245,7 @@ ElementMaterials mixture(const TetMesh& mesh, double ratio)
                       {3, elasticMaterial(.1 * ratio * 1e5, .45)}});
 }
 
-// The forces of the step are minus the gradient of the energy: what patches of elements of several moduli would break.
+// Forces of the step are minus the gradient of the energy, also for patches next to elements of other moduli.
 TEST(ElasticityRegions, StressesAreTheEnergysGradient)
 {
     const TetMesh mesh = shuffledMesh(makeBox({1, .5, .5}, {6, 3, 3}, {}, CellSplit::kuhnSix), .1, 1);
@@ -253,7 +254,7 @@ TEST(ElasticityRegions, StressesAreTheEnergysGradient)
     for (Vec3& x : body.m_state.m_x) x = rotationAbout({1, 2, -1}, .7) * (x + .02 * random.next());
     for (Vec3& v : body.m_state.m_v) v = {};
     const double scale = mechanicalEnergy(body) / .1;
-    // From rest, a step that is short beside every frequency adds h f / m.
+    // From rest, a step short against each period adds h f / m.
     Body moved(body.m_model);
     moved.m_state.m_x = body.m_state.m_x;
     StepSettings settings;
@@ -274,7 +275,7 @@ TEST(ElasticityRegions, StressesAreTheEnergysGradient)
         }
 }
 
-// The kernels' A is the one that was factored: at rest, and turned as a whole, the first iteration ends.
+// The kernels' A equals the factored one: at rest and rigidly rotated, one iteration converges.
 TEST(ElasticityRegions, KernelsAndFactorAgree)
 {
     const TetMesh mesh = makeBox({1, .5, .5}, {10, 5, 5});
@@ -289,7 +290,8 @@ TEST(ElasticityRegions, KernelsAndFactorAgree)
     }
 }
 
-// Bending far under its own weight. The factor knows the regions: a stiff layer bends less, and takes fewer.
+// Large bending under its own weight. The factor includes the regions: with a stiff layer the body bends less, and
+// takes fewer iterations.
 TEST(ElasticityRegions, ContrastTakesNoMoreIterations)
 {
     const TetMesh mesh = makeBox({1, .25, .25}, {16, 4, 4});

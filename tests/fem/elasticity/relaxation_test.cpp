@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Materials that relax, against their Prony series and the standard solid (docs/materials.md, Relaxation).
+// Relaxing materials against their Prony series and the standard solid (docs/materials.md, Relaxation).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFast = 1e5;  // Young's modulus of fast loads [Pa]
+constexpr double kFast = 1e5;  // instantaneous Young's modulus [Pa]
 
 Material relaxing(const std::array<PronyTerm, 3>& terms, double nu = 0.3, double density = 1000)
 {
@@ -30,7 +30,7 @@ Material relaxing(const std::array<PronyTerm, 3>& terms, double nu = 0.3, double
 
 constexpr std::array<PronyTerm, 3> kThreeTerms = {{{0.3, 0.1}, {0.2, 1}, {0.1, 7}}};
 
-// Held where it was strained at once: the deviator follows the series, the pressure stays.
+// A strain applied at once and held: the deviator follows the series, the pressure is constant.
 TEST(Relaxation, HeldBodyFollowsThePronySeries)
 {
     for (const double nu : {0.3, 0.45})
@@ -55,9 +55,9 @@ TEST(Relaxation, HeldBodyFollowsThePronySeries)
     }
 }
 
-// A bar that is pulled by a weight from one instant on creeps as the standard solid in shear, and not at all in volume:
-// strain = sigma / 9 K + sigma J(t) / 3, J = (1 - g exp(-(1 - g) t / tau)) / ((1 - g) G). Steps let what relaxes lag
-// by one, h / tau = 1.7 %, and the bar swings in for a tenth of a second.
+// Under a suddenly applied weight a bar creeps as the standard solid in shear, with elastic volume: strain = sigma / 9
+// K + sigma J(t) / 3, J = (1 - g exp(-(1 - g) t / tau)) / ((1 - g) G). The relaxation lags by one step, h / tau = 1.7
+// %, and the bar vibrates for a tenth of a second.
 TEST(Relaxation, CreepOfAPulledBarIsThatOfTheStandardSolid)
 {
     constexpr double kShare = 0.6, kTime = 1, kPull = 50;
@@ -84,7 +84,7 @@ TEST(Relaxation, CreepOfAPulledBarIsThatOfTheStandardSolid)
     }
 }
 
-// Fast loads meet E, slow ones what is left of it.
+// The response is bounded by elastic materials of the instantaneous and of the long-term modulus.
 TEST(Relaxation, MaterialsOfFastAndSlowLoadsBoundIt)
 {
     Body body = makeBody(makeBox({1, 0.5, 0.5}, {2, 1, 1}), relaxing(kThreeTerms), [](const Vec3&) { return true; });
@@ -112,7 +112,7 @@ Body shaken(const NodePredicate& fixed = {})
     return body;
 }
 
-// With plastic flow besides.
+// With plastic flow, too.
 TEST(Relaxation, EnergyOnlyFalls)
 {
     Body body = shaken([](const Vec3& X) { return X.x == 0; });
@@ -128,7 +128,7 @@ TEST(Relaxation, EnergyOnlyFalls)
     EXPECT_GT(body.m_state.m_equivalentPlasticStrain[5], 0);
 }
 
-// What has relaxed is no stress any more: the yield stress leaves room for it.
+// Relaxed stress does not count for yielding.
 TEST(Relaxation, RelaxedStressDoesNotYield)
 {
     Material material = relaxing({{{0.5, 1e-3}}});

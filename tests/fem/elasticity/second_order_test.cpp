@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Steps of less numerical damping than implicit Euler's, against the laws of docs/theory.md.
+// Steps with less numerical damping than implicit Euler, against the laws of docs/theory.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,13 +31,13 @@ Body bodyOf(const TetMesh& mesh, double young, const StepSettings& settings, con
     return makeBody(mesh, material, fixed, factorStep(settings.m_step, settings.m_numericalDamping, material));
 }
 
-// The step of a mode of omega h = y, of (omega x, v): multiplied by the complex number that this returns in the end.
+// The discrete law of a mode of omega h = y: asymptotically each step multiplies (omega x, v) by this complex number.
 struct Law
 {
     double m_amplitude, m_phase;  // [-], [rad] a step
 };
 
-// With all of d, or with none where the step takes no notice of what it does not resolve.
+// `smoothed`: the step damps vibrations that it does not resolve, by the coefficient d.
 Law lawOf(double y, double s, bool smoothed)
 {
     const double k = y * y, c = 0.375 + 0.625 * s, d = smoothed ? 0.75 * (1 - s) : 0, theta = 0.5 * (1 + s);
@@ -60,7 +60,7 @@ class SecondOrderVibration : public testing::TestWithParam<Swing>
 {
 };
 
-// The lowest bending mode of a clamped bar: the amplitude that it keeps, and its frequency.
+// The lowest bending mode of a clamped bar: its amplitude decay and its frequency.
 TEST_P(SecondOrderVibration, FollowsItsLaw)
 {
     const Swing& p = GetParam();
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Steps, SecondOrderVibration,
                                          Swing{"Euler", .2, 1}),
                          swingName);
 
-// Of 1.7 Hz at 60 Hz: implicit Euler has lost half of it in .74 s.
+// A vibration of 1.7 Hz at 60 Hz: implicit Euler would halve it in .74 s.
 TEST(SecondOrder, SwingsForTenSeconds)
 {
     const Mode mode = LinearSystem(RestShape(swingingBar(), elasticMaterial(1e6, .3)), atStart).lowestModes(1).front();
@@ -130,7 +130,7 @@ TEST(SecondOrder, SwingsForTenSeconds)
     EXPECT_GE(mechanicalEnergy(body), 0.8 * start);  // amplitude .9
 }
 
-// Where the nodes of a bar are after a quarter of a second under its weight, from rest, in steps of h.
+// Node positions of a bar after a quarter of a second of free vibration under its weight, with step h.
 std::vector<Vec3> after(double h, double stretch, double damping)
 {
     StepSettings settings;
@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(Bars, OrderOfConvergence,
                          testing::Values(Order{1, 0, 1.8, 2.3}, Order{1.3, 0, 1.6, 2.4}, Order{1, 1, .8, 1.2},
                                          Order{1.3, 1, .6, 1.2}));
 
-// A bar that spins freely: velocities that turn with it are no strain.
+// A freely spinning bar: velocities of rigid rotation are no strain.
 TEST(SecondOrder, SpinsWithoutGainOfEnergy)
 {
     for (const double spin : {3.0, 6.0, 12.0})
@@ -200,9 +200,9 @@ TEST(SecondOrder, SpinsWithoutGainOfEnergy)
         }
 }
 
-// A stiff bar that spins freely about its shortest axis keeps its length and so, with its momentum, its energy. What
-// only seems to be strain as its nodes go along chords would change it: by (omega h)^2 / 8 [-], and where the material
-// is damped by omega^2 h beta / 2, which beyond .08 ends in more and more energy.
+// A stiff bar that spins freely about its shortest axis keeps its length and so, by its momentum, its energy. The
+// apparent strain of nodes that move along chords would change it: by (omega h)^2 / 8 [-], and by omega^2 h beta / 2
+// with material damping, which beyond .08 would grow without bound.
 class SecondOrderSpin : public testing::TestWithParam<double>
 {
 };
@@ -222,7 +222,7 @@ TEST_P(SecondOrderSpin, KeepsTheLengthOfStiffBars)
             BodyState& s = body.m_state;
             for (std::size_t i = 0; i < s.m_x.size(); ++i) s.m_v[i] = cross({0, 0, spin}, s.m_x[i]);
             const double start = kineticEnergy(s), length = norm(s.m_x.back() - s.m_x.front());
-            // What is left is of fourth order in the angle of a step, and grows with the damping.
+            // The remaining error is of fourth order in the angle of a step, and grows with the damping.
             const double left = std::pow(spin * settings.m_step, 4) * (1 + GetParam() / settings.m_step);
             for (int k = 0; k < 600; ++k)
             {
@@ -236,7 +236,7 @@ TEST_P(SecondOrderSpin, KeepsTheLengthOfStiffBars)
 
 INSTANTIATE_TEST_SUITE_P(Damping, SecondOrderSpin, testing::Values(0, 0.005, 0.1));
 
-// Strips stretched to twice their length, kicked, and cubes of nodes thrown anywhere.
+// Strips stretched to twice their length with initial velocities, and cubes with random node positions.
 TEST(SecondOrder, ComesToRestFromViolentMotion)
 {
     StepSettings settings;
@@ -273,7 +273,7 @@ TEST(SecondOrder, ComesToRestFromViolentMotion)
     }
 }
 
-// Where a damped bar comes to rest under its weight is none of the step's business.
+// The equilibrium of a damped bar under its weight does not depend on the step.
 TEST(SecondOrder, RestsAtTheEulerEquilibrium)
 {
     std::vector<Vec3> rest[2];

@@ -52,7 +52,7 @@ struct Bar
     std::vector<Stress> m_element, m_node;
 };
 
-// Away from the ends, where the clamp and the loads are not felt any more, every element has it.
+// Away from the ends each element has it (Saint-Venant).
 TEST(StressInBars, TensionIsForceOverArea)
 {
     Bar bar(2);
@@ -72,12 +72,12 @@ TEST(StressInBars, TensionIsForceOverArea)
     EXPECT_GT(looked, 100);
 }
 
-// How near linear tetrahedra come to it, measured.
+// Measured accuracy of linear tetrahedra.
 struct Cells
 {
     int m_thickness;   // cells through the thickness
     double m_slice;    // fitted sigma_xx over M z / I
-    double m_hottest;  // highest of the nodes over M / (I / (1/2)) at the clamp
+    double m_hottest;  // largest nodal value over M / (I / (1/2)) at the clamp
 };
 
 void PrintTo(const Cells& cells, std::ostream* out)
@@ -119,7 +119,7 @@ TEST_P(BendingStress, SliceFollowsTheMomentLine)
     }
 }
 
-// In the first half metre of eight: at the clamp itself, which forbids the contraction, von Mises is a little lower.
+// Within the first half metre of eight: at the clamp itself, which prevents contraction, von Mises is slightly lower.
 TEST_P(BendingStress, IsLargestAtTheEdgesOfTheClamp)
 {
     const auto less = [](const Stress& a, const Stress& b) { return vonMises(a) < vonMises(b); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Strips of .4 x .02 x .02 m, E 1e6, ends clamped, stretched and seeded with 1e-4 m/s: they come to rest.
+// Stretched strips of .4 x .02 x .02 m, E 1e6, with clamped ends and initial velocities of 1e-4 m/s come to rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-// Largest kinetic energy [J] after a step, of `count` steps.
+// Maximum kinetic energy [J] over `count` steps.
 double largestKineticEnergy(Body& body, int count, bool tension)
 {
     StepSettings settings;
@@ -31,7 +31,8 @@ double largestKineticEnergy(Body& body, int count, bool tension)
 class ElasticityTension : public testing::TestWithParam<int>
 {
 protected:
-    // In equilibrium (a second with the tension term leaves less than 1e-10 of the seed's energy), then seeded.
+    // Starts in equilibrium (a second with the tension term leaves less than 1e-10 of the initial kinetic energy), then
+    // adds random velocities.
     ElasticityTension()
         : m_strip(makeBody(makeBox({.4, .02, .02}, {40, 2, 2}), elasticMaterial(1e6, 0.3),
                            [](const Vec3& X) { return X.x == 0 || X.x == .4; }))
@@ -51,8 +52,8 @@ protected:
     double m_seedEnergy = 0;
 };
 
-// The seed's kinetic energy decays from the first step on. After 3 s the slowest mode, the lowest bending of the least
-// stretched strip, has kept 2e-11 of it (measured); a bound of 1e-9 leaves other compilers and seeds room.
+// The kinetic energy decays from the first step on. After 3 s the slowest mode, the lowest bending mode of the least
+// stretched strip, keeps 2e-11 of it (measured); the bound of 1e-9 allows for other compilers and seeds.
 TEST_P(ElasticityTension, StretchedStripComesToRest)
 {
     double previous = m_seedEnergy;
@@ -65,7 +66,7 @@ TEST_P(ElasticityTension, StretchedStripComesToRest)
     EXPECT_LT(previous, 1e-9 * m_seedEnergy);
 }
 
-// A velocity given from outside is the impulse that would give it, although the term is in A alone.
+// A velocity written by the program acts as the corresponding impulse, although the tension term is in A only.
 TEST_P(ElasticityTension, AGivenVelocityActsAsItsImpulse)
 {
     StepSettings settings;
@@ -90,8 +91,8 @@ TEST_P(ElasticityTension, AGivenVelocityActsAsItsImpulse)
     EXPECT_LT(difference, 1e-4 * most);
 }
 
-// The first test is not empty: without the tension term the same strips shake themselves apart, up to kinetic energies
-// of 6e7 to 3e9 times the seed's (measured), and do not calm down.
+// The counterpart: without the tension term the strips diverge to kinetic energies of 6e7 to 3e9 times the initial one
+// (measured), and do not settle.
 TEST_P(ElasticityTension, NeverSettlesWithoutTheTensionTerm)
 {
     largestKineticEnergy(m_strip, 60, false);
@@ -103,7 +104,7 @@ TEST_P(ElasticityTension, NeverSettlesWithoutTheTensionTerm)
 struct Swing
 {
     double m_young, m_poisson;    // [Pa], [-]
-    std::vector<double> m_rates;  // [Hz], over and over
+    std::vector<double> m_rates;  // [Hz], cyclically
     double m_numericalDamping;    // [-]
 };
 
@@ -114,12 +115,12 @@ void PrintTo(const Swing& swing, std::ostream* out)
     *out << " Hz, s " << swing.m_numericalDamping;
 }
 
-class TensionInVaryingSteps : public testing::TestWithParam<std::tuple<Swing, bool>>  // accurate bending
+class TensionInVaryingSteps : public testing::TestWithParam<std::tuple<Swing, bool>>  // true: accurate bending
 {
 };
 
-// A bar that hangs on one node and swings by 5 rad/s, hardly damped, for 20 s. Its pressure is that of an unresolved
-// vibration, and T of it comes and goes. By falling it gets 4.6 to 6.5 times its kinetic energy.
+// A bar on one fixed node swings at 5 rad/s, nearly undamped, for 20 s. Its pressure is that of an unresolved
+// vibration, so that T switches on and off. Its fall yields 4.6 to 6.5 times its kinetic energy.
 TEST_P(TensionInVaryingSteps, AddsNoEnergy)
 {
     const auto& [swing, accurateBending] = GetParam();
@@ -143,7 +144,7 @@ TEST_P(TensionInVaryingSteps, AddsNoEnergy)
     }
 }
 
-// Without damping by T the first three get some 1e4 times the start's, the last one 2e3.
+// Without damping by T the first three cases reach 1e4 times the initial energy, the last one 2e3.
 INSTANTIATE_TEST_SUITE_P(
     Bars, TensionInVaryingSteps,
     testing::Combine(testing::Values(Swing{1e7, .487, {60, 60, 60, 240}, 0}, Swing{1e6, .495, {60, 60, 60, 240}, 0},

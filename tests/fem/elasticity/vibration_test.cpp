@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Vibrations against implicit Euler's own law. An oscillator's x + i v / omega is divided by 1 + i omega h in every
-// step: the frequency becomes atan(omega h) / h, and the amplitude shrinks by (1 + omega^2 h^2)^-1/2.
+// Vibrations against implicit Euler's discrete law. Each step divides an oscillator's x + i v / omega by 1 + i omega h:
+// the frequency becomes atan(omega h) / h, and the amplitude shrinks by (1 + omega^2 h^2)^-1/2.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ const TetMesh& bar()
     return mesh;
 }
 
-// The eigenmode of the discrete K and M, so that the mesh has no part in the comparison.
+// The eigenmode of the discrete K and M, so that the mesh does not affect the comparison.
 Mode chosenMode(const RestShape& shape, bool axial)
 {
     const std::vector<Mode> modes = LinearSystem(shape, rodEnd).lowestModes(8);
@@ -52,7 +52,7 @@ Mode chosenMode(const RestShape& shape, bool axial)
     return axial ? *std::max_element(modes.begin(), modes.end(), maxAlong) : modes.front();
 }
 
-// phi^T M u.
+// The modal coordinate phi^T M u.
 double modalPart(const Mode& mode, const std::vector<double>& mass, const std::vector<Vec3>& u)
 {
     double sum = 0;
@@ -70,7 +70,7 @@ TEST_P(ElasticityVibration, FollowsImplicitEulersLaw)
     Body body = makeBody(bar(), elasticMaterial(1e6, .3), rodEnd, settings.m_step);
     BodyState& s = body.m_state;
     const std::vector<Vec3> X = s.m_x;
-    const double amplitude = 1e-4;  // tip 1e-6 of the length: rotations change nothing
+    const double amplitude = 1e-4;  // tip 1e-6 of the length: rotations are negligible
     for (std::size_t i = 0; i < X.size(); ++i) s.m_x[i] += amplitude * mode.m_shape[i];
 
     const int n = 60;

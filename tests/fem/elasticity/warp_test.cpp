@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rigid motions: elasticity must not see them, and the warped preconditioner must turn with them.
+// Rigid motions: elastic forces are invariant, and the warped preconditioner rotates with them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ void disturb(Body& body, double velocity, double force)
 }
 
 // A = Q A0 Q^T exactly, so that the rotated factor is the inverse up to its single precision (1e-7), far below 1e-3.
-// The warm start of the rotations is the identity here: they find the turn, 180 degrees included, by themselves.
+// Rotations start from the identity here and must be found by the polar decomposition, at 180 degrees, too.
 TEST_P(ElasticityWarp, RigidlyRotatedBodyTakesOneIteration)
 {
     Body body = clampedBeam();
@@ -71,10 +71,10 @@ TEST_P(ElasticityWarp, RigidlyRotatedBodyTakesOneIteration)
     EXPECT_EQ(report.m_iterations, 1);
     EXPECT_EQ(report.m_stop, SolveStop::converged);
     EXPECT_LE(report.m_residual, 1e-3);
-    EXPECT_GT(largestDistance(velocity(body), body.m_state.m_v), 1e-4);  // there was something to solve
+    EXPECT_GT(largestDistance(velocity(body), body.m_state.m_v), 1e-4);  // the right-hand side was not zero
 }
 
-// f(Qx) = Q f(x) for a state with 20 % random strains; and the sums of forces and torques vanish.
+// f(Qx) = Q f(x) for a state of 20 % random strain; the sums of forces and of torques vanish.
 TEST_P(ElasticityWarp, ForcesTurnWithTheState)
 {
     const Body body = clampedBeam();
@@ -104,7 +104,7 @@ TEST_P(ElasticityWarp, ForcesTurnWithTheState)
     EXPECT_LE(largestDistance(turned, f), 1e-12 * scale);
 }
 
-// Ten steps of the free body from a turned state are the ten steps of the unturned one, turned; to the solver's
+// Ten steps of the free body from a rotated state equal the rotated ten steps of the original; to the solver's
 // tolerance.
 TEST_P(ElasticityWarp, MotionTurnsWithTheState)
 {

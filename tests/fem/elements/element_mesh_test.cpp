@@ -33,7 +33,7 @@ protected:
         }
     }
 
-    // Runs the kernels and the double loops, and compares; `rounding` is that of Real.
+    // Compares the kernels with the double loops; `rounding` is that of Real.
     template <class Real>
     void compare(const RestShape& shape, double rounding)
     {
@@ -46,7 +46,7 @@ protected:
         addElasticForces(shape, m_x, m_v, 0.05, R, force, &tension);
         addStiffnessProduct(shape, R, tension, {kernels.kStiffnessFactor, kernels.kTensionFactor}, m_v, product);
 
-        // A strain of 0.2 is a difference of numbers near 1, and 30 roundings go into a force.
+        // A strain of 0.2 is a difference of numbers near 1, and a force accumulates 30 roundings.
         EXPECT_LE(largestDistance(kernels.forces(), force), 100 * rounding * largest(force));
         // The state keeps its quaternions in single precision, 6e-8 an entry.
         for (std::size_t e = 0; e < tets; ++e)
@@ -94,7 +94,7 @@ TEST_P(ElementMesh, AgreesWithTheDoubleLoopsInBothPrecisions)
         }
 }
 
-// A stiff body under small loads: strains of 1e-6 would drown in the rounding of F, 6e-8, or of R.
+// A stiff body under small loads: strains of 1e-6 would be lost in the rounding of F, 6e-8, or of R.
 TEST_P(ElementMesh, SmallStrainsKeepTheirDigits)
 {
     const TetMesh mesh = meshes()[3];
@@ -148,7 +148,7 @@ TEST_P(ElementMesh, IsSymmetric)
     EXPECT_GT(vAv, 0);
 }
 
-// Fixed lanes and order: how blocks are divided among threads cannot be seen.
+// Lanes and summation order are fixed: results do not depend on the division of blocks among threads.
 template <class Real>
 void expectSameBitsInRanges(const RestShape& shape, const std::vector<Vec3>& x, const std::vector<Vec3>& v)
 {
@@ -170,7 +170,7 @@ TEST_P(ElementMesh, HasTheSameBitsHoweverBlocksAreDivided)
 {
     const TetMesh mesh = makeBox({1, 0.6, 0.5}, {8, 4, 4}, {}, CellSplit::kuhnSix);
     deform(mesh);
-    for (const double nu : {0.3, 0.45})  // elements of their own, and in patches
+    for (const double nu : {0.3, 0.45})  // without patches, and with them
     {
         const RestShape shape(mesh, elasticMaterial(1e4, nu));
         expectSameBitsInRanges<float>(shape, m_x, m_v);
@@ -191,7 +191,7 @@ TEST_P(ElementMesh, PaddingLanesHaveNoForce)
             for (int c = 0; c < 4; ++c) EXPECT_EQ(0, kernels.m_corners[1].m_vector[a][lane][c]);
 }
 
-// What comes of them is what came of them when they were found.
+// Given rotations give the results of computed ones.
 TEST_P(ElementMesh, KeepsKnownRotations)
 {
     const TetMesh mesh = meshes()[2];
@@ -200,7 +200,7 @@ TEST_P(ElementMesh, KeepsKnownRotations)
     ElementCase<float> found(shape, m_x, m_v), known(shape, m_x, m_v);
     found.forces();
     known.m_rotation = found.m_rotation;
-    known.m_rotation[0] = {0.6f, 0, 0, 0.8f};  // not the one that it would find
+    known.m_rotation[0] = {0.6f, 0, 0, 0.8f};  // differs from the polar rotation
     const std::vector<Quaternion> given = known.m_rotation;
     ElementPass<float> pass = known.pass();
     pass.m_isRotated = true;

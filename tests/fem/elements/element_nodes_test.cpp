@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Sums and rotations of nodes from those of the elements around them.
+// Nodal sums and nodal rotations from those of the adjacent elements.
 #include <algorithm>
 #include <cstring>
 
@@ -24,7 +24,7 @@ Mat3 matrix(const NodeRotation& R)
 class ElementNodes : public OnTarget
 {
 protected:
-    // What the elements at a node of the mesh make of rotations R_e.
+    // Nodal averages of the element rotations R_e.
     std::vector<Mat3> averages() const
     {
         std::vector<NodeRotation> out(m_mesh.nodeCount());
@@ -92,8 +92,9 @@ TEST_P(ElementNodes, AverageNearRotationsCloseToThePolarOnes)
     }
 }
 
-// Thirds of the elements are nearly half a turn from each other: |sum| is about sqrt(1/3), and the mean quaternion is
-// no good. Where every third has a fifth of the volume, |sum| is below sqrt(0.44) and R_i is exactly the polar one.
+// A third of the elements is nearly half a turn away from the others: |sum| is about sqrt(1/3), and the mean quaternion
+// is invalid. If every third element has a fifth of the volume, |sum| is below sqrt(0.44) and R_i is exactly the polar
+// rotation.
 TEST_P(ElementNodes, AverageFarRotationsToThePolarOnes)
 {
     const Mat3 turns[3] = {Mat3::identity(), rotationAbout({1, 0, 0.01}, 3.12), rotationAbout({0.02, 1, 0}, 3.1)};
@@ -129,7 +130,7 @@ TEST_P(ElementNodes, RotationsMatchTheirScalarReferences)
         reference::averageRotations({&m_nodes, m_rotation.data(), twin.data()}, {0, m_mesh.nodeCount()});
         std::vector<Mat3> expected;
         for (const NodeRotation& R : twin) expected.push_back(matrix(R));
-        // 0.5 % of the volume may lie on the wrong side, if it is there by less than the spread.
+        // 0.5 % of the volume may be assigned the wrong quaternion sign if it differs by less than the spread.
         EXPECT_LE(largestError(averages(), expected), 1e-6 + 0.01 * std::min(spread, 0.4)) << spread;
         const Range blocks = {0, blockCount(m_mesh.tetCount())};
         const Mat3 sum = reference::sumRotations(m_nodes, m_rotation.data(), blocks);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rotations and tensions of the element kernels where they are hard: elements far from their last rotation, inverted,
-// flat, of one direction or none; stresses with equal eigenvalues.
+// Rotations and tensions of the element kernels in hard cases: elements far from their last rotation, inverted, flat,
+// of rank one or zero; stresses with equal eigenvalues.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-// Elements that share no node, so that every one can be given its F.
+// Elements without common nodes, each with an F of its own.
 class SingleElements
 {
 public:
@@ -69,7 +69,7 @@ std::vector<Mat3> withStretches(const std::vector<Vec3>& stretches, unsigned see
 class ElementRotation : public OnTarget
 {
 protected:
-    // R is a rotation and no other makes tr(R^T F) larger by more than rounding, whether R is unique or not.
+    // R is a rotation, and no other one has a larger tr(R^T F) beyond rounding, also if R is not unique.
     template <class Real>
     void expectPolar(const std::vector<Mat3>& F)
     {
@@ -109,14 +109,14 @@ TEST_P(ElementRotation, IsPolarForFlatAndDegenerateElements)
     expectPolarInBoth(withStretches({{1, 1, 0}, {2, 0.5, 0}, {1, 0, 0}, {1e-20, 1e-20, 1e-20}, {0, 0, 0}}, 3));
 }
 
-// Written to nodes by mistake: products of three entries overflow in single precision.
+// Values written to nodes by mistake: products of three entries overflow in single precision.
 TEST_P(ElementRotation, IsPolarForHugeElements)
 {
     const Vec3 size = {1, 0.7, 0.4};
     expectPolarInBoth(withStretches({1e8 * size, 1e10 * size, 1e13 * size, 1e16 * size}, 6));
 }
 
-// The last rotation of such elements, whatever their kernels' products say.
+// Such elements keep their last rotation, for any products in the kernels.
 TEST_P(ElementRotation, IsFiniteForOverflowingEntries)
 {
     const SingleElements elements(std::vector<Mat3>(20, scaling({1e36, 3e37, 1e38})));
@@ -125,7 +125,7 @@ TEST_P(ElementRotation, IsFiniteForOverflowingEntries)
     for (int e = 0; e < 20; ++e) EXPECT_TRUE(isFinite(kernels.rotation(e).column(0))) << e;
 }
 
-// Half turns about the axes, exact but for rounding: the trace that definiteness is measured against is negative there.
+// Half turns about the axes, exact to rounding: their trace, the scale of the definiteness test, is negative.
 TEST_P(ElementRotation, IsPolarForHalfTurnsAboutTheAxes)
 {
     std::vector<Mat3> F;
@@ -149,7 +149,7 @@ TEST_P(ElementRotation, IsPolarForHalfTurnsFromTheLastRotation)
     expectPolarInBoth(F);
 }
 
-// Where F leaves R open, nothing jumps: a crushed element keeps the rotation that it had.
+// R is continuous if F does not determine it: a collapsed element keeps its rotation.
 TEST_P(ElementRotation, KeepsTheLastRotationOfACollapsedElement)
 {
     const SingleElements elements(std::vector<Mat3>(20, Mat3()));
@@ -160,7 +160,7 @@ TEST_P(ElementRotation, KeepsTheLastRotationOfACollapsedElement)
     for (int e = 0; e < 20; ++e) EXPECT_LE(squaredNorm(kernels.rotation(e) - last), 1e-12);
 }
 
-// Forces of elements that turned by up to a radian since the last step, and of degenerate ones beside them.
+// Forces of elements rotated by up to a radian since the last step, and of degenerate ones beside them.
 TEST_P(ElementRotation, ForcesAgreeWithTheDoubleLoop)
 {
     std::vector<Mat3> F = withStretches({{1.2, 1, 0.9}, {1, 1, 0.3}, {1, 0.8, -0.3}}, 5);

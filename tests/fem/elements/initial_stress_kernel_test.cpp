@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What an initial stress adds to an element pass: against its energy, its torque, and plain C++.
+// The initial stress in an element pass: against its energy, its torque balance, and plain C++.
 #include "fem/common/rotation.h"
 #include "fem/elements/element_strains.h"
 #include "fem/scenes/element_case.h"
@@ -26,7 +26,7 @@ protected:
         m_v.resize(m_x.size());
     }
 
-    // One tensor a lane, V in it.
+    // One tensor per lane, multiplied by V.
     template <class Real>
     std::vector<StressBlock<Real>> stressesOf(const ElementCase<Real>& kernels)
     {
@@ -73,10 +73,10 @@ protected:
     }
 
     std::vector<Vec3> m_x, m_v;
-    std::vector<Mat3> m_stress;  // of the elements, V in it
+    std::vector<Mat3> m_stress;  // of the elements, multiplied by V
 };
 
-// Central differences of a smooth energy, d 1e-5 of an edge: the error is some d^2, and rounding 1e-16 / d.
+// Central differences of a smooth energy, with d 1e-5 of an edge: the error is of order d^2, the rounding 1e-16 / d.
 TEST_P(InitialStressKernel, ForcesAreTheGradientOfTheEnergy)
 {
     const TetMesh mesh = makeBox({1, 0.6, 0.5}, {2, 2, 2}, {}, CellSplit::kuhnSix);
@@ -101,7 +101,7 @@ TEST_P(InitialStressKernel, ForcesAreTheGradientOfTheEnergy)
     }
 }
 
-// In each element, not in their sum alone; they have shear strains, so that R sigma_0 by itself would have one.
+// Balance in each element, not only in the sum; shear strains make R sigma_0 alone unbalanced.
 TEST_P(InitialStressKernel, ForcesOfAnElementHaveNoSumAndNoTorque)
 {
     const TetMesh mesh = makeBox({1, 0.6, 0.5}, {2, 2, 2});
@@ -122,7 +122,7 @@ TEST_P(InitialStressKernel, ForcesOfAnElementHaveNoSumAndNoTorque)
             torque += cross(m_x[mesh.tets()[e][a]], force);
         }
         EXPECT_LE(norm(sum), 1e-12 * size) << e;
-        EXPECT_LE(norm(torque), 1e-7 * size) << e;  // the state's rotations are single
+        EXPECT_LE(norm(torque), 1e-7 * size) << e;  // the state's rotations are in single precision
     }
 }
 
@@ -195,7 +195,7 @@ class ElementStrainKernel : public OnTarget
 {
 };
 
-// Strains that are given, at every turn: to rounding of the largest, however small they are.
+// Prescribed strains at any rotation: accurate to rounding of the largest, even if small.
 template <class Real>
 void expectGivenStrains(double size, double rounding)
 {
@@ -237,7 +237,7 @@ TEST_P(ElementStrainKernel, FindsTheStrainsOfTheElementsFrames)
     for (const double size : {1e-4, 0.01, 0.3})
     {
         expectGivenStrains<float>(size, 5e-6);
-        expectGivenStrains<double>(size, 5e-6);  // the state's rotations are single: 1e-7 about the strain's axes
+        expectGivenStrains<double>(size, 5e-6);  // the state's rotations are floats: 1e-7 about the strain's axes
     }
 }
 

@@ -18,7 +18,7 @@ Material neoHookeanAt(double nu)
     return material;
 }
 
-// W of F from its invariants, with the parabola below J0 spelt out.
+// W of F by its invariants, with the parabola below J0.
 double energyDensity(const Material& material, const Mat3& F)
 {
     const double mu = material.lameMu(), lambda = material.lameLambda();
@@ -99,7 +99,7 @@ TEST_P(NeoHookeKernel, ForcesAreTheGradientOfTheEnergy)
 TEST_P(NeoHookeKernel, MatchesItsScalarReference)
 {
     const TetMesh mesh = makeBox({1, 0.6, 0.5}, {4, 2, 2}, {}, CellSplit::kuhnSix);
-    std::vector<Material> perElement(mesh.tetCount(), neoHookeanAt(0.3));  // of both laws, side by side
+    std::vector<Material> perElement(mesh.tetCount(), neoHookeanAt(0.3));  // both laws in neighbouring elements
     for (std::size_t e = 0; e < perElement.size(); e += 3) perElement[e].m_law = ElasticLaw::hooke;
     const RestShape shape(mesh, ElementMaterials::ofElements(perElement));
     for (const double height : {1.2, 0.5, 0.12})
@@ -125,8 +125,8 @@ TEST_P(NeoHookeKernel, MatchesItsScalarReference)
     }
 }
 
-// What stands for the derivative of the forces in A: the derivative itself at rest, and never less along anything that
-// stretches or crushes an element.
+// The tangent in A: the exact derivative of the forces at rest, and an upper bound of it along directions that stretch
+// or compress an element.
 TEST_P(NeoHookeKernel, TangentIsHookesAtRestAndCoversTheLaws)
 {
     const TetMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}});
@@ -171,7 +171,7 @@ TEST_P(NeoHookeKernel, TangentIsHookesAtRestAndCoversTheLaws)
         }
 }
 
-// Flat, collapsed and inverted elements are driven back, by forces that are finite.
+// Flat, collapsed and inverted elements have finite forces that restore their orientation.
 TEST_P(NeoHookeKernel, DegenerateElementsAreDrivenBack)
 {
     const TetMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}});

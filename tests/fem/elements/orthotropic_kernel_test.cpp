@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The kernels of orthotropic elements: against the energy, against those of Hooke's law, and against plain C++.
+// The kernels of orthotropic elements: against the energy, the kernels of Hooke's law, and plain C++.
 #include "fem/common/rotation.h"
 #include "fem/elements/orthotropic_elements.h"
 #include "fem/scenes/element_case.h"
@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-// Fibres that run askew, twenty times as stiff as what is between them.
+// Oblique fibres, twenty times as stiff as the matrix.
 Material fibrous()
 {
     Material material = elasticMaterial(1e4, 0.3);
@@ -24,7 +24,7 @@ Material fibrous()
     return material;
 }
 
-// The same numbers as `hooke`, in the form of nine constants.
+// The isotropic material `hooke` as nine orthotropic constants.
 Material inNineConstants(Material hooke)
 {
     Orthotropic& m = hooke.m_orthotropic;
@@ -80,7 +80,7 @@ struct OrthotropicCase : ElementCase<Real>
 class OrthotropicKernel : public OnTarget
 {
 protected:
-    // Turned by 2 rad, pressed to `height` and strained at random by `size`.
+    // Rotates by 2 rad, compresses to `height` and adds random strain of `size`.
     void deform(double height, double size)
     {
         RandomVectors random(9);
@@ -95,7 +95,7 @@ protected:
     std::vector<Vec3> m_x, m_v;
 };
 
-// Central differences of the energy. Without the torque's balance W it would fail by the strain times the force.
+// Central differences of the energy. Without the torque-balance term W the error would be strain times force.
 TEST_P(OrthotropicKernel, ForcesAreTheGradientOfTheEnergy)
 {
     const RestShape shape(m_mesh, fibrous());
@@ -158,7 +158,7 @@ TEST_P(OrthotropicKernel, MatchesItsScalarReference)
     }
 }
 
-// Of equal constants in all directions they are those of Hooke's law.
+// With isotropic constants the results are those of Hooke's law.
 TEST_P(OrthotropicKernel, IsotropicConstantsGiveHookesLaw)
 {
     const Material hooke = elasticMaterial(1e4, 0.35);
@@ -176,7 +176,7 @@ TEST_P(OrthotropicKernel, IsotropicConstantsGiveHookesLaw)
     EXPECT_LE(largestDistance(foundSingle, fSingle), 5e-6 * largest(f));
 }
 
-// x . A y = y . A x, and x . A x > 0 but for rigid motions.
+// x . A y = y . A x, and x . A x > 0 except for rigid motions.
 TEST_P(OrthotropicKernel, ProductIsSymmetricAndPositive)
 {
     const RestShape shape(m_mesh, fibrous());
@@ -197,7 +197,7 @@ TEST_P(OrthotropicKernel, ProductIsSymmetricAndPositive)
     }
 }
 
-// The derivative of the forces at rest, where W has none.
+// A is the derivative of the forces at rest, where W vanishes.
 TEST_P(OrthotropicKernel, ProductIsTheDerivativeOfTheForcesAtRest)
 {
     const RestShape shape(m_mesh, fibrous());
@@ -230,7 +230,7 @@ TEST_P(OrthotropicKernel, DegenerateElementsHaveFiniteForces)
     for (const Vec3& force : kernels.forces()) EXPECT_LT(norm(force), 1e8);
 }
 
-// Any division into ranges gives the same bits.
+// Any division into ranges gives equal bits.
 TEST_P(OrthotropicKernel, RangesDoNotMatter)
 {
     const RestShape shape(m_mesh, fibrous());

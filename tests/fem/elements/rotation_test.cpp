@@ -59,13 +59,13 @@ double largestTrace(const Mat3& F)
     return s(0) + s(1) + sign * s(2);
 }
 
-using PolarCase = std::tuple<NamedMatrix, NamedMatrix>;  // F, guess
+using PolarCase = std::tuple<NamedMatrix, NamedMatrix>;  // F, initial guess
 
 class PolarRotation : public testing::TestWithParam<PolarCase>
 {
 };
 
-// Whatever F and the guess are, the answer is a rotation, and none is nearer to F.
+// For any F and initial guess the result is a rotation, and no rotation is nearer to F.
 TEST_P(PolarRotation, IsTheNearestRotation)
 {
     const Mat3 F = std::get<0>(GetParam()).m_matrix, guess = std::get<1>(GetParam()).m_matrix;
@@ -74,7 +74,7 @@ TEST_P(PolarRotation, IsTheNearestRotation)
     const double size = std::sqrt(squaredNorm(F));
     EXPECT_NEAR(trace(transposeTimes(R, F)), largestTrace(F), 2e-12 * size);
     const Mat3 S = transposeTimes(R, F);
-    EXPECT_LE(distance(S, transpose(S)), 1e-8 * size);  // the gradient; the trace is at its maximum to second order
+    EXPECT_LE(distance(S, transpose(S)), 1e-8 * size);  // the gradient; the trace is stationary at its maximum
 }
 
 const NamedMatrix kGradients[] = {
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Polar, PolarRotation,
                          [](const auto& suite)
                          { return std::string(std::get<0>(suite.param).m_name) + std::get<1>(suite.param).m_name; });
 
-// det F > 0: the answer is unique, so it does not depend on the guess.
+// det F > 0: the rotation is unique and does not depend on the initial guess.
 TEST(Rotation, KnownFactorsAreFound)
 {
     RandomVectors random(5);
@@ -131,7 +131,7 @@ TEST(Rotation, TurnsWithF)
     EXPECT_LE(distance(polarRotation(F * Q, Mat3::identity()), R * Q), 1e-14);
 }
 
-// The same F with its own answer as guess moves by rounding alone: an element at rest does not creep.
+// With its own result as initial guess R changes by rounding only: an element at rest does not creep.
 TEST(Rotation, IsAFixedPointOfItself)
 {
     Mat3 R = polarRotation(oblique(77) * scaledAxes(1.1, 1, 0.9), Mat3::identity());
@@ -141,7 +141,8 @@ TEST(Rotation, IsAFixedPointOfItself)
     expectRotation(R);
 }
 
-// What F leaves open is taken from the guess; the tie of 1e-12 that decides leaves 2e-16 / 1e-12 of rounding.
+// Directions that F does not determine are taken from the initial guess; the threshold of 1e-12 leaves 2e-16 / 1e-12 of
+// rounding.
 TEST(Rotation, ReturnsGuessInUndeterminedDirections)
 {
     const Mat3 guess = oblique(50);
@@ -152,7 +153,7 @@ TEST(Rotation, ReturnsGuessInUndeterminedDirections)
     EXPECT_LE(distance(polarRotation(outer(a, a), about), about), 1e-3);
 }
 
-// Nothing that comes out of memory nobody wrote.
+// NaN gives the initial guess, with no read of uninitialised memory.
 TEST(Rotation, ReturnsGuessForNaN)
 {
     const Mat3 guess = oblique(50);
@@ -165,7 +166,7 @@ TEST(Rotation, ReturnsGuessForNaN)
     }
 }
 
-// From flat to inverted to flat and back: a rotation all the way, and the first one again at the end.
+// F from regular to inverted and back: R stays a rotation, and equals the first one at the end.
 TEST(Rotation, RecoversFromInversion)
 {
     const Mat3 Q = oblique(25);

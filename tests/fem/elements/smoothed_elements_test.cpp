@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Smoothed kernels with all that they read and write.
+/// Smoothed kernels with their input and output arrays.
 template <class Real>
 struct SmoothedCase
 {
@@ -38,7 +38,7 @@ struct SmoothedCase
         return {m_plain.product(p), &m_smoothing, strain(0), m_tension.data(), m_warped.data()};
     }
 
-    /// Ranges of at most so many pieces, domains and blocks.
+    /// Ranges of at most `atOnce` chunks, domains and blocks.
     std::vector<Vec3> forces(int atOnce, const std::vector<StressBlock<Real>>* initial = nullptr)
     {
         SmoothedPass<Real> parts = pass();
@@ -172,7 +172,7 @@ TEST_P(SmoothedElements, HaveTheSameBitsInAnyRanges)
     expectSameInRanges<double>();
 }
 
-// At rest, where rotations are the identity: K of the energy, assembled.
+// At rest, with identity rotations: the assembled K of the energy.
 TEST_P(SmoothedElements, ApplyTheAssembledStiffness)
 {
     const std::vector<Vec3>& X = m_mesh.restPositions();
@@ -187,7 +187,7 @@ TEST_P(SmoothedElements, ApplyTheAssembledStiffness)
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(y[i][c], Kp[3 * i + c], 1e-9 * largest(y));
 }
 
-// Q (A p) of a state turned by Q, and no force of rest shapes that are turned.
+// Q (A p) for a state rotated by Q, and zero forces for rotated rest shapes.
 TEST_P(SmoothedElements, TurnWithTheBody)
 {
     const Mat3 Q = rotationAbout({2, -1, 3}, 2.2);
@@ -210,7 +210,7 @@ TEST_P(SmoothedElements, TurnWithTheBody)
     EXPECT_LE(largest(still.forces(kAllAtOnce)), 1e-12 * largest(f));
 }
 
-// Of the elastic forces; damping by K' has a torque about positions that are deformed.
+// Elastic forces only; damping by K' has a torque about deformed positions.
 TEST_P(SmoothedElements, HaveNoTorqueAndNoSum)
 {
     SmoothedCase<double> kernels(m_shape, m_x, std::vector<Vec3>(m_x.size()));

@@ -39,7 +39,7 @@ void PrintTo(const NamedTurn& turn, std::ostream* out)
     *out << turn.m_name;
 }
 
-// The textbook's K_e is that of an element with a volume change of its own.
+// The textbook's K_e has no mean dilatation over patches.
 Material withoutPatches(Material material)
 {
     material.m_meanDilatation = MeanDilatation::off;
@@ -112,7 +112,7 @@ protected:
     std::vector<std::array<double, 6>> m_tension;
 };
 
-// The energy is quadratic at R fixed: central differences are exact but for the rounding of E, 1e-16 |E| / d.
+// The energy is quadratic at fixed R: central differences are exact but for the rounding of E, 1e-16 |E| / d.
 TEST_P(WarpedElements, ForcesAreTheGradientOfTheEnergyAtFixedRotations)
 {
     const std::vector<Vec3> f = forces(m_x, m_R);
@@ -220,7 +220,7 @@ TEST_P(WarpedElements, TensionIsThePositivePartOfTheStress)
     }
 }
 
-// T = sum V (g_a . sigma+ g_b) I by its columns: the same for x, y and z, symmetric, positive semidefinite, blind to
+// T = sum V (g_a . sigma+ g_b) I by its columns: equal for x, y and z, symmetric, positive semidefinite, zero for
 // translations.
 TEST_P(WarpedElements, TensionTermIsSymmetricAndPositiveSemidefinite)
 {
@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(
                std::to_string(std::lround(100 * std::get<1>(suite.param))) + std::get<2>(suite.param).m_name;
     });
 
-// A cube that is pressed from all sides has no tension; one that is pulled has its whole stress.
+// A cube under uniform pressure has no tension; under uniform tension it has its whole stress.
 TEST(Tension, VanishesInCompressionAndIsFullInStretch)
 {
     const RestShape shape(makeBox({1, 1, 1}, {1, 1, 1}), elasticMaterial(1e4, 0.3));

@@ -41,7 +41,7 @@ protected:
         return values;
     }
 
-    // Every vector is to have the bits that it has alone, on every instruction set.
+    // Each vector has the bits of a single solve, on every instruction set.
     template <class Together, class Alone>
     void compare(const Together& together, const Alone& alone) const
     {
@@ -50,7 +50,7 @@ protected:
             hwy::SetSupportedTargetsForTest(target);
             const AlignedFloats y = randomFloats(static_cast<std::size_t>(m_size) * kPanelLanes, 10);
             const AlignedFloats before = randomFloats(static_cast<std::size_t>(m_size) * kPanelLanes, 10);
-            const AlignedFloats scratch = randomFloats(batchScratchOf(m_panel), 20);  // what it held does not matter
+            const AlignedFloats scratch = randomFloats(batchScratchOf(m_panel), 20);  // its contents do not matter
             together(m_panel, y.get(), scratch.get());
             for (int lane = 0; lane < kPanelLanes; ++lane)
             {
@@ -82,7 +82,7 @@ TEST_P(SidePanelKernels, BackwardGivesEveryVectorItsOwnBits)
     compare(backwardPanelBatch, backwardPanel);
 }
 
-// All widths of a last chunk, and rows that fill their last block or do not.
+// All widths of a last chunk, with row counts that fill their last block and others that do not.
 const std::array<int, 2> kSizes[] = {{1, 0}, {1, 1}, {2, 5}, {3, 16}, {4, 7}, {5, 11}, {16, 0}, {23, 40}, {30, 3}};
 INSTANTIATE_TEST_SUITE_P(Sizes, SidePanelKernels, testing::ValuesIn(kSizes));
 

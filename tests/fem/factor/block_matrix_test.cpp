@@ -86,7 +86,7 @@ TEST(ElementStiffness, UnitTetrahedronMatchesHandValues)
 
 TEST(BlockMatrix, HoldsTheNeighboursOfANodeInOrder)
 {
-    // Two elements on the face 1, 2, 3: nodes 0 and 4 are no neighbours.
+    // Two elements sharing the face 1, 2, 3: nodes 0 and 4 are not coupled.
     const TetMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 2, 3, 4}});
     BlockMatrix K = assembleRestStiffness(RestShape(mesh, Material()));
     EXPECT_EQ(K.nodeCount(), 5);

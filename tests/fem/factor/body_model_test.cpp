@@ -124,7 +124,7 @@ TEST_F(BodyModelInput, IsRejectedWithInvalidMasses)
     expectRejected(create(), {"node 7 is inf kg", "(0, inf)"});
 }
 
-// Light and heavy, soft and stiff: single precision of the factor sees them all scaled.
+// Light and heavy, soft and stiff bodies: scaling keeps the factor within single precision.
 TEST_F(BodyModelInput, ExtremeValuesGiveAFiniteStep)
 {
     struct Extreme
@@ -142,7 +142,7 @@ TEST_F(BodyModelInput, ExtremeValuesGiveAFiniteStep)
     }
 }
 
-// The limit is compared with what the factor would take, to the byte, before it is computed.
+// The limit is compared with the factor's exact size in bytes before it is computed.
 TEST(BodyModelLimit, AFactorBeyondTheLimitIsRefusedWithItsSize)
 {
     const std::shared_ptr<const BodyModel> model = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), Material()).m_model;
@@ -154,7 +154,7 @@ TEST(BodyModelLimit, AFactorBeyondTheLimitIsRefusedWithItsSize)
     try
     {
         BodyModel::create(model->sharedShape(), input);
-        ADD_FAILURE() << "nothing was thrown";
+        ADD_FAILURE() << "no exception";
     }
     catch (const std::runtime_error& error)
     {
@@ -170,7 +170,7 @@ TEST(BodyState, StartsAtRest)
     EXPECT_EQ(largestDistance(s.m_v, std::vector<Vec3>(8)), 0);
     EXPECT_EQ(s.m_mass, body.m_model->factorInput().m_mass);
     EXPECT_EQ(s.m_fixed, body.m_model->factorInput().m_fixed);
-    EXPECT_GE(s.m_elementRotation.size(), 5u);  // and what fills the last block of kernel lanes
+    EXPECT_GE(s.m_elementRotation.size(), 5u);  // plus padding of the last block of kernel lanes
     for (const Quaternion& q : s.m_elementRotation) EXPECT_EQ(squaredNorm(toMatrix(q) - Mat3::identity()), 0);
 }
 
@@ -187,7 +187,7 @@ TEST(Body, ExchangesItsFactorAndKeepsItsMotion)
     EXPECT_EQ(body.m_model->factorInput().m_step, 0.01);
     EXPECT_EQ(largestDistance(body.m_state.m_x, before.m_x), 0);
     EXPECT_EQ(largestDistance(body.m_state.m_v, before.m_v), 0);
-    EXPECT_EQ(body.m_state.m_fixed, before.m_fixed);  // the state's own say
+    EXPECT_EQ(body.m_state.m_fixed, before.m_fixed);  // the state's own flags
     StepSettings settings;
     settings.m_step = 0.01;
     EXPECT_EQ(step(body, settings).m_stop, SolveStop::converged);

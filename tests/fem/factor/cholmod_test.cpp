@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Our factor beside CHOLMOD's of the same matrix in the same order, on thirty bodies.
+// The factor against CHOLMOD's of the equally ordered matrix, for thirty bodies.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -94,7 +94,7 @@ protected:
         m_A = lowerMatrix(m_system.m_A0, m_order);
     }
 
-    // CHOLMOD's solution of A x = b is refined once: round-off in double precision is then far below ours.
+    // CHOLMOD's solution of A x = b, refined once: its error in double precision is far below the factor's.
     VectorXd exactSolution(const VectorXd& b) const
     {
         CholmodFactor cholmod(m_A, CholmodFactor::Kind::supernodal, CholmodFactor::Order::natural);
@@ -109,8 +109,8 @@ protected:
     }
 };
 
-// S = (L11 L11^T)^-1 and M = L21 L11^-1 of every supernode, with CHOLMOD's L: once rounded to single precision, the
-// factors are one.
+// S = (L11 L11^T)^-1 and M = L21 L11^-1 of each supernode, from CHOLMOD's L: rounded once to single precision, the
+// factors are equal.
 TEST_P(CholmodComparison, FactorBlocksMatchCholmod)
 {
     CholmodFactor cholmod(m_A, CholmodFactor::Kind::simplicial, CholmodFactor::Order::natural);

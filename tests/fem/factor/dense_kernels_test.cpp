@@ -23,7 +23,7 @@ namespace
 
 using Eigen::MatrixXd;
 
-constexpr double kGuard = 1e300;  // where nothing may be written
+constexpr double kGuard = 1e300;  // guard value behind each block
 
 std::vector<std::int64_t> targetsHere()
 {
@@ -36,7 +36,7 @@ std::vector<std::int64_t> targetsHere()
     return targets;
 }
 
-// Dispatches to one target while it lives.
+// Dispatches to one target during its lifetime.
 class OnlyTarget
 {
 public:
@@ -75,7 +75,7 @@ struct Front
     Front(const MatrixXd& A, int pivots) : m_pivots(pivots), m_rows(static_cast<int>(A.rows()) - pivots)
     {
         MatrixXd lower = A;
-        lower.triangularView<Eigen::StrictlyUpper>().setConstant(7);  // is not to be read
+        lower.triangularView<Eigen::StrictlyUpper>().setConstant(7);  // must not be read
         m_A11 = guarded(lower.topLeftCorner(m_pivots, m_pivots));
         m_A21 = guarded(lower.bottomLeftCorner(m_rows, m_pivots));
         m_A22 = guarded(lower.bottomRightCorner(m_rows, m_rows));
@@ -135,7 +135,7 @@ TEST_P(DenseKernels, ProductMatchesItsPlainReference)
                 }
 }
 
-// Sizes on both sides of vectors, tiles and blocks.
+// Sizes below and above those of vectors, tiles and blocks.
 TEST_P(DenseKernels, EliminationMatchesItsPlainReference)
 {
     for (int p : {0, 1, 3, 11, 12, 13, 24, 30, 95, 96, 97, 99, 200})

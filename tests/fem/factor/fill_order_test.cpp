@@ -68,7 +68,7 @@ TEST_P(FillOrderOfPattern, IsAPermutation)
     EXPECT_EQ(order, all);
 }
 
-// In every order of a matrix, not only in good ones.
+// For any order of a matrix, not only fill-reducing ones.
 TEST_P(FillOrderOfPattern, BlocksOfTheFactorAreCountedAsEliminationMakesThem)
 {
     const Eigen::MatrixXd& A = GetParam().m_matrix;
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Patterns, FillOrderOfPattern,
                                          NamedPattern{"Arrow", arrowMatrix(30)}, NamedPattern{"Grid", gridMatrix(6)}),
                          [](const auto& suite) { return std::string(suite.param.m_name); });
 
-// In its own order an arrow fills up; with its tip last it does not fill at all.
+// In its natural order an arrow matrix fills completely; with the tip last it has no fill.
 TEST(FillOrder, EliminatesTheTipOfAnArrowLast)
 {
     constexpr int n = 40;
@@ -101,7 +101,7 @@ TEST(FillOrder, EliminatesTheTipOfAnArrowLast)
     EXPECT_EQ(entriesOfFactor(arrowMatrix(n), fillReducingOrder(sparsePattern(arrowMatrix(n))).m_rows), 2 * n - 1);
 }
 
-// METIS seeds the C library's one random generator and draws from it.
+// METIS seeds the C library's only random generator and draws from it.
 TEST(FillOrder, IsTheSameForConcurrentCallers)
 {
     const SparsePattern pattern = sparsePattern(gridMatrix(40));
@@ -146,7 +146,7 @@ std::vector<int> minimumDegreeOrder(const SparsePattern& pattern)
     return amdVersion().empty() ? eigenOrder(pattern) : amdOrder(pattern);
 }
 
-// SuiteSparse's takes Eigen's place where it is there; a bar is dissected at the price of more fill.
+// SuiteSparse's AMD replaces Eigen's if available; dissection of a bar would have more fill.
 TEST(FillOrder, UsesMinimumDegreeForABar)
 {
     const SparsePattern bar = boxPattern(60, 3, 3);
@@ -157,7 +157,7 @@ TEST(FillOrder, UsesMinimumDegreeForABar)
     EXPECT_TRUE(dissection.empty() || blocksOfFactor(bar, dissection) > blocksOfFactor(bar, order.m_rows));
 }
 
-// Dissection wins in a cube, where this build has it.
+// Nested dissection has less fill in a cube, if this build has it.
 TEST(FillOrder, UsesNestedDissectionForACube)
 {
     const SparsePattern cube = boxPattern(10, 10, 10);
@@ -179,7 +179,7 @@ TEST(OrderingBackend, NamesTheLibrariesOfThisBuildWithTheirVersions)
     EXPECT_THAT(orderingBackend(), StartsWith(std::string(minimumDegreeName()) + " "));
     EXPECT_THAT(orderingBackend(), HasSubstr("."));
     EXPECT_THAT(orderingBackend(), HasSubstr(metisVersion()));
-    EXPECT_LT(orderingBackend().size(), 48u) << "the room that baked files have for it";
+    EXPECT_LT(orderingBackend().size(), 48u) << "size of its field in baked files";
 }
 
 }  // namespace

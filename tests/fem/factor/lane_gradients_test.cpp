@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Sixteen right-hand sides at a time: what is done to their vectors, and their conjugate gradients.
+// Conjugate gradients for sixteen right-hand sides at a time, and their vector operations.
 #include "fem/factor/lane_gradients.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace
 
 constexpr double kSingleRounding = 1e-6;  // some rounding errors of single precision
 
-// A block that hangs on one side, its nodes no multiple of sixteen.
+// A block fixed on one side, with a number of nodes that is no multiple of sixteen.
 std::shared_ptr<const BodyModel> makeModel(double young = 1e6, double poisson = 0.3)
 {
     const Body body = makeBody(makeBox({1, 1, 1}, {4, 3, 3}), elasticMaterial(young, poisson),
@@ -34,7 +34,7 @@ std::shared_ptr<const BodyModel> makeModel(double young = 1e6, double poisson = 
 class LaneGradientsTest : public OnTarget
 {
 protected:
-    using Lanes = Eigen::Matrix<float, Eigen::Dynamic, kPanelLanes, Eigen::RowMajor>;  // as they lie in memory
+    using Lanes = Eigen::Matrix<float, Eigen::Dynamic, kPanelLanes, Eigen::RowMajor>;  // the memory layout
 
     Lanes randomLanes(unsigned seed) const
     {
@@ -45,7 +45,7 @@ protected:
         return lanes;
     }
 
-    // A0 over the free nodes in the factor's order, as the textbook has it.
+    // A0 over the free nodes in the factor's order, from the textbook formula.
     Eigen::MatrixXd orderedA0() const { return ordered(*m_model); }
     static Eigen::MatrixXd ordered(const BodyModel& model)
     {
@@ -66,7 +66,7 @@ protected:
         return floats;
     }
 
-    // A0^-1 times the lanes, by the gradients of a model.
+    // A0^-1 times the lanes, by conjugate gradients of a model.
     static Lanes solved(const BodyModel& model, const Lanes& rightSide, double tolerance)
     {
         const RestFactor& factor = model.factor();
@@ -123,8 +123,8 @@ TEST_P(LaneGradientsTest, MoveEveryLaneByItsOwnStep)
     EXPECT_EQ(lanes(qf).norm(), 0);
 }
 
-// In the energy norm, and up to twice the tolerance where convergence is slow; the scalar factor alone is 40 to 90 %
-// off.
+// In the energy norm, and up to twice the tolerance at slow convergence; the scalar factor alone has an error of 40 to
+// 90 %.
 TEST_P(LaneGradientsTest, SolveToTheTolerance)
 {
     for (const double young : {1e4, 1e6, 1e8})
@@ -156,7 +156,7 @@ TEST_P(LaneGradientsTest, DoNotLetLanesActOnEachOther)
     EXPECT_GT(b.col(4).norm(), 0);
 }
 
-// Numbers that no step length can be made of leave what there is, and no NaN.
+// Without a finite step length the last iterate is kept, and no NaN appears.
 TEST_P(LaneGradientsTest, LeaveNoNaNOnBreakdown)
 {
     Lanes extreme = randomLanes(6);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The low-memory path: when it is taken, what its factor is, and that the answers are those of the full one.
+// The low-memory path: its selection, its factor, and the agreement of its results with the full factor's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Body box(int cells)
                     [](const Vec3& X) { return X.x == 0; });
 }
 
-// --- The choice ---
+// --- Selection ---
 
 class Choice : public testing::Test
 {
@@ -82,7 +82,7 @@ TEST_F(Choice, LowMemoryNeedsNoLimit)
     EXPECT_EQ(withChoice(*m_full, FactorChoice::lowMemoryBeyond)->factorReport().m_path, FactorPath::full);
 }
 
-// Each refusal names what would be needed, and what can be done.
+// Each refusal names the required size and the remedy.
 TEST_F(Choice, RejectsModelsBeyondTheLimitOnEitherPath)
 {
     const std::size_t lowBytes = withChoice(*m_full, FactorChoice::lowMemory)->factorReport().m_bytes;
@@ -100,7 +100,7 @@ TEST_F(Choice, RejectsModelsBeyondTheLimitOnEitherPath)
 
 // --- The factor ---
 
-// A third of the trace of every block of A0, from the textbook's A0, for each direction.
+// A third of the trace of each block of A0, from the textbook's A0, for each direction.
 TEST(LowMemoryFactor, FactorsTheMeanOverDirections)
 {
     const auto model = withChoice(*box(4).m_model, FactorChoice::lowMemory);
@@ -149,7 +149,8 @@ Body bodyOf(std::shared_ptr<const BodyModel> model)
     return body;
 }
 
-// Both solve the same system: what remains is the tolerance, a step, and what single precision leaves of the tip's way.
+// Both solve one system: the difference is the tolerance, a step, and single precision relative to the tip's
+// displacement.
 TEST(LowMemoryStep, MovesTheBeamAsTheFullFactorDoes)
 {
     const Body beam =
@@ -198,7 +199,7 @@ TEST(LowMemoryStep, AllocatesNothing)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// A body of which every node is fixed has no factor at all.
+// A body with all nodes fixed has no factor.
 TEST(LowMemoryStep, DoesNothingWithoutFreeNodes)
 {
     const Body fixed = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), Material(), [](const Vec3&) { return true; });
@@ -209,8 +210,8 @@ TEST(LowMemoryStep, DoesNothingWithoutFreeNodes)
 
 // --- Contact ---
 
-// Lets the cube come to rest on a plane without friction (with it, rest depends on how it was reached); returns the
-// nodes' impulses of the last step [N s].
+// Lets the cube come to rest on a frictionless plane (friction would make rest depend on the path); returns the nodes'
+// impulses of the last step [N s].
 std::vector<double> restImpulses(FactorChoice choice)
 {
     ContactScene scene(1e5);
@@ -242,7 +243,7 @@ TEST(LowMemoryContact, RestsWithTheForcesOfTheFullFactor)
     EXPECT_NEAR(sum, 9.81 * 1000 / 60, 1e-3 * 9.81 * 1000 / 60);
 }
 
-// A push is solved for to 1e-3, and its impulse from columns that are 1e-3 off.
+// The correction is solved to 1e-3, and its impulse comes from columns with an error of 1e-3.
 TEST(LowMemoryContact, TakesPenetrationBackByAShareWithoutVelocity)
 {
     ContactScene scene;

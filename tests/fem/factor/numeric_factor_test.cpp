@@ -190,7 +190,7 @@ protected:
     const MatrixXd m_permuted = m_factor.permuted(dense(m_A));
 };
 
-// A = (I + M) S^-1 (I + M)^T with all supernodes' M and S^-1 in their places.
+// A = (I + M) S^-1 (I + M)^T with the blocks M and S^-1 of all supernodes.
 TEST_P(NumericFactor, BlocksMultiplyToA)
 {
     const int n = static_cast<int>(m_permuted.rows());
@@ -236,7 +236,7 @@ MatrixXd twoPieces()
     return A;
 }
 
-// Made by the tests that want them: every test is a process of its own.
+// Made within the tests that use them, since each test runs in a process of its own.
 INSTANTIATE_TEST_SUITE_P(Systems, NumericFactor,
                          testing::Values(NamedSystem{"OneNode", [] { return blocksOf(randomBlocks(1, 1, 1)); }},
                                          NamedSystem{"Points", [] { return blocksOf(randomBlocks(8, 0, 1)); }},
@@ -289,7 +289,7 @@ TEST(NumericFactorErrors, NameTheNonPositiveNode)
     EXPECT_NE(failure(A).find("pivot nan at node 17;"), std::string::npos) << failure(A);
 }
 
-// Without masses the rigid modes are free: the last pivots are nothing but round-off, here made clearly negative.
+// Without masses the rigid modes are singular: the last pivots are round-off, here made clearly negative.
 TEST(NumericFactorErrors, RefuseAnIndefiniteSum)
 {
     BlockMatrix A = assembleRestStiffness(RestShape(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e6, 0.3)));

@@ -18,7 +18,7 @@ namespace
 
 constexpr double kSingleSolve = 1e-5;  // 6e-8 of single precision times a condition of some 100
 
-// A box that is clamped at one side: its A0 over the free nodes in the factor's order, dense and packed.
+// A box fixed at one side: its A0 over the free nodes in the factor's order, dense and packed.
 class PackedSolve : public testing::TestWithParam<int>
 {
 protected:
@@ -85,14 +85,14 @@ TEST_P(PackedSolve, SolvesSixteenEachForItself)
     for (int lane = 0; lane < kPanelLanes; ++lane)
         EXPECT_LE(error(m_y.get(), b, kPanelLanes, lane), kSingleSolve) << lane;
 
-    // The bits of a lane do not depend on the others.
+    // The bits of a lane do not depend on the other lanes.
     AlignedFloats alone = allocateFloats(count);
     for (std::size_t i = 0; i < count; ++i) alone[i] = i % kPanelLanes == 5 ? b[i] : 0;
     m_packed.solveLanes(m_packed.allSupernodes(), m_packed.allSupernodes(), alone.get(), m_scratch.get());
     for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(alone[i], i % kPanelLanes == 5 ? m_y[i] : 0) << i;
 }
 
-// One node pushed, its answer wanted at another: along the ways of the two to the root the answer is the same.
+// An impulse on one node, the response at another: a solve along the two nodes' paths to the root gives equal results.
 TEST_P(PackedSolve, ASparseRightSideNeedsItsWayToTheRootAlone)
 {
     const SupernodeTree& tree = m_packed.tree();
@@ -122,7 +122,7 @@ TEST_P(PackedSolve, GivesTheSameBitsEveryTime)
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solve(m_y.get(), m_scratch.get());
     const std::vector<float> first(m_y.get(), m_y.get() + m_packed.size());
-    std::fill(m_scratch.get(), m_scratch.get() + m_scratchSize, 1e30f);  // what it held does not matter
+    std::fill(m_scratch.get(), m_scratch.get() + m_scratchSize, 1e30f);  // its initial contents do not matter
     std::copy(b.begin(), b.end(), m_y.get());
     m_packed.solve(m_y.get(), m_scratch.get());
     EXPECT_EQ(first, std::vector<float>(m_y.get(), m_y.get() + m_packed.size()));

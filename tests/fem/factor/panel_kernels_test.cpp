@@ -33,8 +33,8 @@ void PrintTo(const PanelSize& size, std::ostream* out)
     *out << size.m_columns << " columns over " << size.m_rowsBelow << " rows";
 }
 
-// A panel of random entries: columns are nodes 2, 3, ..., rows below are every third node after them.
-// RowsOfNode: 3 where an entry stands for one direction, 1 where it serves all three.
+// A panel of random entries: columns are nodes 2, 3, ..., rows below are every third node after them. RowsOfNode: 3 if
+// an entry is for one direction, 1 if it serves all three.
 template <int RowsOfNode>
 class PanelKernelsTest : public testing::TestWithParam<PanelSize>
 {
@@ -59,7 +59,7 @@ protected:
         for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<float>(random.next().x);
     }
 
-    // |y - expected| against the terms that were added up.
+    // |y - expected| relative to the summed terms.
     double error(const float* y, const std::vector<float>& expected) const
     {
         double largest = 0;
@@ -138,7 +138,7 @@ TEST_P(IsotropicKernels, BackwardOfSixteenMatchesItsScalarReference)
     compare(kPanelLanes, backwardIsotropicLanes, reference::backwardIsotropic);
 }
 
-// All widths of a last chunk, and rows that fill their last block or do not.
+// All widths of a last chunk, with row counts that fill their last block and others that do not.
 const PanelSize kPanelSizes[] = {{1, 0}, {1, 1}, {2, 5}, {3, 16}, {4, 7}, {5, 11}, {16, 0}, {23, 40}, {30, 3}};
 INSTANTIATE_TEST_SUITE_P(Sizes, PanelKernels, testing::ValuesIn(kPanelSizes));
 INSTANTIATE_TEST_SUITE_P(Sizes, IsotropicKernels, testing::ValuesIn(kPanelSizes));

@@ -51,7 +51,7 @@ TEST_F(Division, SubtreesAreRootsWithAllTheirDescendants)
         }
 }
 
-// In the order of the rows that they stand for, and no two subtrees write to the same.
+// A subtree's own rows above it are in the order of the rows that they stand for, and no two subtrees share one.
 TEST_F(Division, SubtreesHaveTheirOwnRowsAbove)
 {
     int next = m_tree.m_nodeCount;
@@ -93,14 +93,14 @@ TEST(SmallDivision, IsEmptyForAnEmptyTree)
     EXPECT_EQ(division.m_rowCount, 0);
 }
 
-// The sixteen-wide solve knows nothing of the division.
+// The sixteen-wide solve does not use the division.
 TEST_F(Division, SolvesLikeTheWhole)
 {
     const int size = m_packed.size();
     AlignedFloats one = allocateFloats(m_packed.vectorSize()), scratch = allocateFloats(m_packed.scratchSize());
     AlignedFloats lanes = allocateFloats(static_cast<std::size_t>(size) * kPanelLanes),
                   laneScratch = allocateFloats(m_packed.laneScratchSize());
-    std::fill(one.get(), one.get() + m_packed.vectorSize(), 1e30f);  // what follows the vector does not matter
+    std::fill(one.get(), one.get() + m_packed.vectorSize(), 1e30f);  // memory behind the vector does not matter
     RandomVectors random(5);
     for (int i = 0; i < size; ++i)
     {

@@ -28,7 +28,7 @@ struct NamedGraph
     SparsePattern (*m_make)();
 };
 
-// `pieces` dense blocks without a connection.
+// `pieces` uncoupled dense blocks.
 Eigen::MatrixXd blockDiagonal(int pieces, int size)
 {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(pieces * size, pieces * size);
@@ -61,7 +61,7 @@ SparsePattern meshPattern(const TetMesh& mesh)
     return pattern;
 }
 
-// The rows below the diagonal of each column of the factor, by elimination as in the textbook.
+// The rows below the diagonal of each column of the factor, by textbook elimination.
 std::vector<Rows> fill(const SparsePattern& pattern, const std::vector<int>& order)
 {
     std::vector<int> position(order.size());
@@ -138,7 +138,7 @@ TEST_P(SupernodeTrees, ColumnsAreDividedAmongSupernodesInPostorder)
                 EXPECT_EQ(node.m_first, columns);
                 EXPECT_GE(node.m_columns, 1);
                 columns += node.m_columns;
-                // The subtrees of the children stand side by side right before the parent.
+                // The children's subtrees are adjacent and directly before the parent.
                 int first = s;
                 for (int child = s - 1; child >= 0 && tree.m_supernodes[child].m_parent == s;
                      child = firstDescendant[child] - 1)
@@ -210,7 +210,7 @@ TEST_P(SupernodeTrees, MergingOnlyAddsEntries)
         });
 }
 
-// Made by the tests that want them: every test is a process of its own.
+// Made within the tests that use them, since each test runs in a process of its own.
 INSTANTIATE_TEST_SUITE_P(Graphs, SupernodeTrees,
                          testing::Values(NamedGraph{"One", [] { return sparsePattern(diagonalMatrix(1)); }},
                                          NamedGraph{"Points", [] { return sparsePattern(diagonalMatrix(9)); }},
@@ -278,7 +278,7 @@ TEST(SupernodeTree, ComponentsAreNotMerged)
     for (const Supernode& s : tree.m_supernodes) EXPECT_EQ(s.m_parent, -1);
 }
 
-// Dense blocks of 40 nodes that share only 8 at the end: too many zeros to merge the two.
+// Dense blocks of 40 nodes that share only 8 at the end: merging them would add too many zeros.
 TEST(SupernodeTree, WideBranchesStayApart)
 {
     Eigen::MatrixXd A = blockDiagonal(2, 40);

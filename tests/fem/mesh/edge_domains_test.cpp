@@ -57,7 +57,7 @@ TEST(EdgeDomains, AreTheElementsAroundEveryEdge)
     EXPECT_EQ(domains.m_element.size(), 6 * mesh.tets().size());
 }
 
-// Weights are those of volumes, filled fractions in them, and of what is smoothed of each element.
+// Weights are volumes, times the filled fraction, times the smoothed share of each element.
 TEST(EdgeDomains, WeighByVolume)
 {
     const TetMesh mesh = shuffledMesh(makeBox({1, 1, 1}, {2, 2, 2}), .1, 1);
@@ -91,7 +91,7 @@ TEST(EdgeDomains, DoNotCrossRegions)
         label.push_back(static_cast<int>(middle.x));
     }
     Material plain = elasticMaterial(1e6, .3);
-    // 0 and 3 are of the same material, 1 of another, 2 does not bend accurately
+    // Elements 0 and 3 are of one material, 1 of another, 2 of one without accurate bending.
     const ElementMaterials materials =
         ElementMaterials::ofLabels(label, {{0, bending()}, {1, bending(3e6)}, {2, plain}, {3, bending()}});
     const RestShape shape(mesh, materials);

@@ -20,7 +20,7 @@ namespace
 const std::map<int, Material> kTable = {
     {4, elasticMaterial(1e5, .3, 900)}, {7, elasticMaterial(3e6, .48, 2000)}, {9, elasticMaterial(2e7, .1, 500)}};
 
-// Half of the elements in either region, by the height of their middles.
+// Assigns the elements to two regions by the height of their centroids.
 std::vector<int> layers(const TetMesh& mesh, double height, int low, int high)
 {
     std::vector<int> labels;
@@ -37,7 +37,7 @@ TEST(MeshElementMaterials, LabelsChooseFromTheTable)
 {
     const ElementMaterials materials = ElementMaterials::ofLabels({7, 4, 7, 7}, kTable);
     EXPECT_FALSE(materials.isUniform());
-    ASSERT_EQ(materials.m_regions.size(), 2u);  // 9 is nowhere
+    ASSERT_EQ(materials.m_regions.size(), 2u);  // label 9 has no elements
     EXPECT_EQ(materials.m_regions[0].m_label, 4);
     EXPECT_EQ(materials.m_regions[1].m_label, 7);
     EXPECT_EQ(materials.of(0), kTable.at(7));
@@ -52,7 +52,7 @@ TEST(MeshElementMaterials, EqualMaterialsOfElementsMakeARegion)
     const Material &soft = kTable.at(4), &stiff = kTable.at(9);
     const ElementMaterials materials = ElementMaterials::ofElements({soft, stiff, stiff, soft});
     ASSERT_EQ(materials.m_regions.size(), 2u);
-    EXPECT_EQ(materials.m_regions[1].m_label, 1);  // its first element
+    EXPECT_EQ(materials.m_regions[1].m_label, 1);  // that of its first element
     EXPECT_EQ(materials.m_regionOf, (std::vector<int>{0, 1, 1, 0}));
     EXPECT_EQ(ElementMaterials::ofElements({soft, soft}), ElementMaterials(soft));
 }
@@ -129,7 +129,7 @@ TEST(MeshElementMaterials, EveryElementHasItsModuliAndMass)
     EXPECT_NEAR(lumped, mass, 1e-12 * mass);
 }
 
-// Regions of one and the same material are that material, to the bit.
+// Regions of equal materials give a uniform body, bitwise equal.
 TEST(MeshElementMaterials, EqualRegionsAreAUniformBody)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {3, 3, 3});
@@ -143,7 +143,7 @@ TEST(MeshElementMaterials, EqualRegionsAreAUniformBody)
         EXPECT_EQ(one.m_elements[e].m_lambdaVolume, two.m_elements[e].m_lambdaVolume);
 }
 
-// Two nearly incompressible layers, one that keeps volume changes apart, and what a mesh that is no lattice has.
+// Beside a nearly incompressible layer another such one, or one without patches; on lattices and on another mesh.
 TEST(MeshElementMaterials, PatchesStayInTheirRegion)
 {
     std::map<int, Material> table = kTable;

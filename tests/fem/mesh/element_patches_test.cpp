@@ -24,7 +24,7 @@ Vec3 middleOfElement(const TetMesh& mesh, int e)
     return sum;
 }
 
-// Every element once, ascending, in connected patches of the allowed size.
+// Each element is in exactly one patch, ascending; patches are connected and of an allowed size.
 void expectPatches(const TetMesh& mesh, const ElementPatches& patches)
 {
     std::vector<int> seen(mesh.tetCount(), 0);
@@ -72,7 +72,7 @@ TEST(MeshElementPatches, AreTheCubesOfBothSplits)
     }
 }
 
-// In the order in which the elements were made, and in any other.
+// In the order of generation, and in any other.
 TEST(MeshElementPatches, AreTheOctahedraOfALattice)
 {
     const TetMesh lattice = makeLatticeBox({4, 3, 3}, 1);
@@ -88,7 +88,7 @@ TEST(MeshElementPatches, AreTheOctahedraOfALattice)
                 nodes.insert(mesh.tets()[patches.m_element[k]].begin(), mesh.tets()[patches.m_element[k]].end());
             octahedra += patches.size(p) == 4 && nodes.size() == 6;
         }
-        // One for every inner face of the cubes, but for some at the edges of the box.
+        // One for each inner face of the cubes, but for some at the box's edges.
         EXPECT_GE(octahedra, 0.9 * (3 * 3 * 3 + 4 * 2 * 3 + 4 * 3 * 2));
     }
 }
@@ -119,7 +119,7 @@ TEST(MeshElementPatches, AreMadeIfTheMaterialRequestsThem)
         return RestShape(mesh, material).m_patches.count();
     };
     EXPECT_EQ(count(0.4, MeanDilatation::automatic), 0);
-    EXPECT_EQ(count(static_cast<double>(0.4f), MeanDilatation::automatic), 0);  // as Bullet rounds it
+    EXPECT_EQ(count(static_cast<double>(0.4f), MeanDilatation::automatic), 0);  // rounded as by Bullet
     EXPECT_EQ(count(0.41, MeanDilatation::automatic), 8);
     EXPECT_EQ(count(0.1, MeanDilatation::on), 8);
     EXPECT_EQ(count(0.499, MeanDilatation::off), 0);

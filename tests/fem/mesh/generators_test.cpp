@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Least volume over longest edge cubed [-].
+/// Minimum of volume over longest edge cubed [-].
 double leastQuality(const TetMesh& mesh)
 {
     double least = 1;
@@ -59,7 +59,7 @@ TEST_P(MakeBox, FillsTheBoxWithMatchingFaces)
     EXPECT_EQ(mesh.turnedCount(), 0);
     EXPECT_EQ(mesh.componentCount(), 1);
     EXPECT_NEAR(mesh.volume(), 30, 30 * 1e-13);
-    // Diagonals that did not match would leave faces of inner cell sides on the boundary.
+    // Diagonals that do not match would leave inner cell faces on the boundary.
     EXPECT_EQ(mesh.surface().size(), 2u * 2 * (3 * 4 + 4 * 2 + 3 * 2));
     const Vec3 centre = centreOfVolume(mesh);
     EXPECT_NEAR(centre.x, 0.5, 1e-12);
@@ -75,7 +75,7 @@ TEST_P(MakeBox, NumbersNodesWithXFastest)
     EXPECT_DOUBLE_EQ(X.x, 1);
     EXPECT_DOUBLE_EQ(X.y, 3.5);
     EXPECT_DOUBLE_EQ(X.z, 9.5);
-    EXPECT_EQ(mesh.restPositions().back().z, 12);  // the far side exactly
+    EXPECT_EQ(mesh.restPositions().back().z, 12);  // exactly at the far side
 }
 
 INSTANTIATE_TEST_SUITE_P(Splits, MakeBox,
@@ -135,7 +135,7 @@ TEST_P(RoundMesh, SphereConvergesFromBelow)
     EXPECT_LT(norm(centreOfVolume(mesh)), 1e-15);
 }
 
-// Where a number of cells is odd, the diagonals in the middle point to one side.
+// With an odd number of cells the middle diagonals point to one side.
 TEST(MakeSphere, HasAnyNumbersOfCells)
 {
     const double exact = 4.0 / 3 * kPi * 0.125;

@@ -44,7 +44,7 @@ TEST(LameModuli, StayWithinTheMaterialRange)
 {
     const LameModuli soft = {300, -150}, stiff = {1, 1e9};
     EXPECT_DOUBLE_EQ(soft.poissonRatio(), 0);
-    EXPECT_DOUBLE_EQ(soft.youngModulus(), 600);  // 2 mu: the shear modulus stays
+    EXPECT_DOUBLE_EQ(soft.youngModulus(), 600);  // 2 mu: the shear modulus is kept
     EXPECT_DOUBLE_EQ(stiff.poissonRatio(), 0.499);
 }
 
@@ -149,11 +149,11 @@ TEST(Material, ComparesYieldParameters)
 struct Bound
 {
     const char* m_name;          // test name
-    double Material::*m_member;  // what is set
-    std::vector<double> m_good;  // the ends of the range
+    double Material::*m_member;  // the member under test
+    std::vector<double> m_good;  // the limits of the range
     std::vector<double> m_bad;   // just outside, far outside, not finite
-    const char* m_what;          // in the message
-    const char* m_range;         // in the message
+    const char* m_what;          // its name in the message
+    const char* m_range;         // its range in the message
 };
 
 void PrintTo(const Bound& bound, std::ostream* out)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Elastic constants of orthotropic materials, and what is refused.
+// Elastic constants of orthotropic materials, and rejected ones.
 #include "bullet_fem/fem/mesh/orthotropic.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Matrix6 matrixOf(const ElasticMatrix& C)
     return Eigen::Map<const Matrix6>(&C.m[0][0]);
 }
 
-// Pine plywood's order of magnitude, all nine constants apart.
+// Constants of pine plywood's order of magnitude, all nine different.
 Orthotropic nineConstants()
 {
     Orthotropic m;
@@ -87,12 +87,12 @@ TEST(Orthotropic, EqualConstantsGiveHookesLaw)
     EXPECT_NEAR(material.lameMu(), hooke.lameMu(), 1e-12 * hooke.lameMu());
 }
 
-// Its axis 1 along y and axis 2 along z: the constants change places.
+// Axis 1 along y and axis 2 along z permute the constants.
 TEST(Orthotropic, AxesTurnTheMaterial)
 {
     Orthotropic turned = nineConstants();
     turned.m_along = {0, 3, 0};
-    turned.m_across = {0, 0.5, 0.25};  // the part along axis 1 counts for nothing
+    turned.m_across = {0, 0.5, 0.25};  // the component along axis 1 is ignored
     EXPECT_NEAR(determinant(turned.axes()), 1, 1e-14);
     const ElasticMatrix own = nineConstants().stiffness(), C = turned.stiffness();
     constexpr int kPlace[6] = {1, 2, 0, 4, 5, 3};  // 11 -> yy, 22 -> zz, 33 -> xx, 23 -> zx, 13 -> yx, 12 -> yz
@@ -132,7 +132,7 @@ TEST(Orthotropic, BadConstantsAreRefusedByName)
     refused([](Orthotropic& m) { m.m_across = {-2, 0, 0}; }, {"(1, 0, 0) and (-2, 0, 0), parallel"});
 }
 
-// What is accepted has a positive definite C, at the edge of the range as well.
+// Accepted constants have a positive definite C, also at the limits of the range.
 TEST(Orthotropic, AcceptedConstantsArePositiveDefinite)
 {
     int accepted = 0, least = 0;
@@ -196,7 +196,7 @@ TEST(Orthotropic, MaterialsDifferByTheirConstantsAndDirections)
     b = a, b.m_orthotropic.m_shear[1] *= 2;
     EXPECT_NE(a, b);
     Material plain, other;
-    other.m_orthotropic = nineConstants();  // which its law does not read
+    other.m_orthotropic = nineConstants();  // ignored by its law
     EXPECT_EQ(plain, other);
 }
 

@@ -95,7 +95,7 @@ TEST(TetMesh, IsTheSameWithKnownBoundarySides)
 {
     std::vector<Vec3> X = makeBox({1, 2, 3}, {3, 2, 4}).restPositions();
     std::vector<Tet> tets = makeBox({1, 2, 3}, {3, 2, 4}).tets();
-    X.push_back({9, 9, 9});  // a loose node
+    X.push_back({9, 9, 9});  // an unused node
     tets.erase(tets.begin() + 7);
     const TetMesh mesh(X, tets, LooseNodes::kept);
     const TetMesh again = TetMesh::withSides(X, tets, mesh.boundarySides());
@@ -189,7 +189,7 @@ TEST(TetMeshInput, RejectsFacesOfMoreThanTwoElements)
         {"face (0, 1, 2)", "3 elements", "0, 1, 2", "at most 2"});
 }
 
-// Alone in its component, an element that is there twice shares each face with itself only.
+// A duplicate element, alone in its component, shares each face only with its copy.
 TEST(TetMeshInput, RejectsDuplicateElements)
 {
     expectRejected(

@@ -13,15 +13,15 @@
 namespace bullet_fem
 {
 
-/// What a body is baked with in these tests: all kinds of sections are in the file.
+/// A baked test body: its file has all kinds of sections.
 struct BakedCase
 {
     std::array<int, 3> m_cells = {2, 1, 1};
     FactorChoice m_choice = FactorChoice::full;
-    bool m_surface = true;  ///< a surface is embedded, and elements are filled in part
+    bool m_surface = true;  ///< with an embedded surface and partly filled elements
 };
 
-/// A box of 1 m, nodes 0 and 1 pinned, of a damped material; with a triangle in it if a surface is asked for.
+/// A box of 1 m with nodes 0 and 1 pinned, of a damped material; with one embedded triangle if m_surface.
 inline BakedBody bakeCase(const BakedCase& c = {})
 {
     BakeSettings settings;
@@ -51,7 +51,7 @@ inline const unsigned char* rawBytes(const std::string& bytes)
     return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
-/// The bytes with lengths and checksums as they must be: what only the checks of the contents can tell.
+/// The bytes with corrected lengths and checksums, so that only the checks of the contents can fail.
 inline std::string sealed(std::string bytes)
 {
     BakedHeader header = {};
@@ -61,7 +61,7 @@ inline std::string sealed(std::string bytes)
     return bytes;
 }
 
-/// What reading them complains of; "" if it does not.
+/// The error message of reading them; "" if there is none.
 inline std::string complaint(const std::string& bytes)
 {
     std::string why;

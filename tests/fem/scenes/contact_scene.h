@@ -11,9 +11,8 @@
 namespace bullet_fem
 {
 
-/// A soft cube of 1 m and 1000 kg, its lowest corner at the origin, above one rigid proxy: a static half space until
-/// told otherwise. Sweeps, rounds and tolerances are such that the answer is that of the contact law, not of the
-/// solver's patience.
+/// A soft cube of 1 m and 1000 kg, its lowest corner at the origin, above one rigid proxy: a static half space by
+/// default. Sweeps, outer iterations and tolerances are set for a converged solution of the contact law.
 struct ContactScene
 {
     /// young: E [Pa]; turn: rotates body, contacts and velocities set through the scene about the origin.
@@ -22,13 +21,13 @@ struct ContactScene
     /// A contact for each of the 9 nodes of the lower face, with the rigid proxy's surface `gap` [m] below.
     void touchLowerFace(double gap, double friction);
 
-    /// One at a node.
+    /// A contact at one node.
     void touchNode(int node, double gap, double friction);
 
     /// Velocities of the whole cube [m/s], in the unturned frame.
     void setVelocity(const Vec3& v);
 
-    /// Free motion, then the contacts.
+    /// Computes the free motion, then solves the contacts.
     ContactReport solve();
 
     /// Relative velocity of soft against rigid at a contact, during the step [m/s].
@@ -47,7 +46,7 @@ struct ContactScene
     ContactSolver m_solver;
 };
 
-/// The rigid proxy's mass properties become those of a solid ball [kg, m].
+/// Gives the rigid proxy the mass properties of a solid ball [kg, m].
 void makeBall(RigidProxy& rigidProxy, double mass, double radius);
 
 }  // namespace bullet_fem

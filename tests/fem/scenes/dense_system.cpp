@@ -62,8 +62,8 @@ Eigen::MatrixXd textbookElementStiffness(const std::array<Vec3, 4>& X, const Mat
 namespace
 {
 
-// K V (G G^T - the mean of g g^T), K the bulk modulus, of every patch, where g p is an element's volume change and G
-// their mean.
+// K V (G G^T - the mean of g g^T) of each patch, where K is the bulk modulus, g p an element's volume change and G the
+// mean of g.
 void averageDilatations(const TetMesh& mesh, const Material& material, const std::vector<Mat3>& R, Eigen::MatrixXd& K)
 {
     const ElementPatches patches(mesh);
@@ -79,7 +79,7 @@ void averageDilatations(const TetMesh& mesh, const Material& material, const std
             Eigen::VectorXd g = Eigen::VectorXd::Zero(K.rows());
             for (int a = 0; a < 4; ++a)
             {
-                // The face opposite a, towards it, over three times the volume.
+                // Area vector of the face opposite a, pointing towards it, over three times the volume.
                 const Tet& t = mesh.tets()[e];
                 const Vec3 &b = X[t[(a + 1) % 4]], &c = X[t[(a + 2) % 4]], &d = X[t[(a + 3) % 4]];
                 const Vec3 normal = cross(c - b, d - b);
@@ -153,7 +153,7 @@ SparsePattern sparsePattern(const Eigen::MatrixXd& A)
 namespace
 {
 
-// A symmetric matrix of random entries where `coupled` says so, made diagonally dominant.
+// A symmetric diagonally dominant matrix with random entries at the pairs for which `coupled` is true.
 template <typename Coupled>
 Eigen::MatrixXd dominantMatrix(int n, Coupled coupled)
 {

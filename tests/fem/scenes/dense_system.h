@@ -12,7 +12,7 @@
 namespace bullet_fem
 {
 
-// The method's matrices once more, dense and from the textbook's formulas: nothing here calls the code under test.
+// The method's matrices, dense and from textbook formulas: nothing here calls the code under test.
 
 /// The entries of node vectors one after the other.
 Eigen::VectorXd flat(const std::vector<Vec3>& u);
@@ -32,14 +32,14 @@ Eigen::MatrixXd denseRestSystem(const RestShape& shape, const FactorInput& input
 /// A without the rows and columns of the fixed nodes, which get ones on the diagonal.
 Eigen::MatrixXd constrained(Eigen::MatrixXd A, const std::vector<unsigned char>& fixed);
 
-/// Where A has entries; those that are exactly 0 are left out but on the diagonal.
+/// The pattern of nonzero entries of A; exact zeros are left out except on the diagonal.
 SparsePattern sparsePattern(const Eigen::MatrixXd& A);
 
-/// Matrices with the patterns that a factorization meets. Symmetric, positive definite, condition below 100.
+/// Matrices with typical patterns of factorizations. Symmetric, positive definite, condition below 100.
 Eigen::MatrixXd diagonalMatrix(int n);
 Eigen::MatrixXd fullMatrix(int n);
 Eigen::MatrixXd tridiagonalMatrix(int n);
 Eigen::MatrixXd arrowMatrix(int n);    ///< first row, first column and diagonal
-Eigen::MatrixXd gridMatrix(int side);  ///< 3x3 blocks on a square grid of side^2 nodes, as a mesh gives them
+Eigen::MatrixXd gridMatrix(int side);  ///< 3x3 blocks on a square grid of side^2 nodes, the pattern of a mesh
 
 }  // namespace bullet_fem

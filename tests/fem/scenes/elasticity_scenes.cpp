@@ -70,7 +70,7 @@ double largestDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     for (std::size_t i = 0; i < a.size(); ++i)
     {
         const double d = norm(a[i] - b[i]);
-        if (!(d <= largest)) largest = d;  // keeps a NaN
+        if (!(d <= largest)) largest = d;  // NaN stays NaN
     }
     return largest;
 }
@@ -184,7 +184,7 @@ std::vector<Vec3> LinearSystem::displacement(const std::vector<Vec3>& force) con
 std::vector<Mode> LinearSystem::lowestModes(int count) const
 {
     RandomVectors random(1);
-    Eigen::MatrixXd basis(m_mass.size(), 2 * count);  // as many again to guard the last ones
+    Eigen::MatrixXd basis(m_mass.size(), 2 * count);  // twice as many vectors, so that the last modes converge
     for (int j = 0; j < basis.cols(); ++j)
         for (int i = 0; i < basis.rows(); i += 3)
         {

@@ -20,7 +20,8 @@ using NodePredicate = std::function<bool(const Vec3& X)>;
 /// A material of the given E [Pa], nu [-] and rho [kg/m3] without damping.
 Material elasticMaterial(double young, double poisson, double density = 1000);
 
-/// A body of the materials' lumped masses whose chosen nodes are fixed (none by default); step [s] is its factor's.
+/// A body with lumped masses by `materials`; the chosen nodes are fixed (none by default); step [s] is that of its
+/// factor.
 Body makeBody(const TetMesh& mesh, const ElementMaterials& materials, const NodePredicate& fixed = {},
               double step = 1.0 / 60);
 
@@ -33,7 +34,7 @@ std::vector<double> faceAreas(const TetMesh& mesh, const NodePredicate& onFace);
 /// The node nearest to a rest position [m].
 int nodeAt(const TetMesh& mesh, const Vec3& X);
 
-/// Largest distance between corresponding positions [m].
+/// Maximum distance of corresponding positions [m].
 double largestDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
 /// Sum over nodes of weight_i u_i, divided by the sum of the weights.
@@ -42,7 +43,7 @@ Vec3 weightedMean(const std::vector<double>& weights, const std::vector<Vec3>& u
 /// The rotation by `angle` [rad] about `axis` (any length but zero).
 Mat3 rotationAbout(const Vec3& axis, double angle);
 
-/// A vector with components in [-1, 1], the same sequence on every machine.
+/// Random vectors with components in [-1, 1], in a sequence that is equal on all machines.
 class RandomVectors
 {
 public:
@@ -60,9 +61,9 @@ double kineticEnergy(const BodyState& state);
 /// Smallest element volume over its rest volume [-]; negative where an element is inverted.
 double smallestVolumeRatio(const Body& body);
 
-/// Quasi-static equilibrium under the body's loads, by steps of its model's h that start from rest each time. To be
-/// used with 1 / h far below every frequency of the body, where a step is one Newton iteration. Returns the last
-/// largest movement of a node in a step [m], at or below `tolerance` if it got there within 400 steps.
+/// Quasi-static equilibrium under the body's loads, by steps of its model's h that start from rest each time. 1 / h
+/// must be far below each frequency of the body, so that a step is one Newton iteration. Returns the maximum node
+/// displacement of the last step [m], at or below `tolerance` if that is reached within 400 steps.
 double relax(Body& body, double tolerance);
 
 /// An eigenmode of K phi = omega^2 M phi, phi^T M phi = 1.
@@ -76,7 +77,7 @@ struct Mode
 std::vector<Mat3> elementRotations(const Body& body);
 
 /// The assembled rest stiffness K and the lumped mass of a shape with clamped nodes: linear statics and vibrations by
-/// Eigen's own factorization, independent of the code that steps.
+/// Eigen's factorization, independent of the stepping code.
 class LinearSystem
 {
 public:

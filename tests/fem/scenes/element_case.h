@@ -19,7 +19,7 @@
 namespace bullet_fem
 {
 
-/// An instruction set: this one and lesser ones may be used.
+/// An instruction set that limits the dispatch: it and lesser ones may be used.
 struct Target
 {
     int64_t m_bit;
@@ -30,7 +30,7 @@ inline void PrintTo(const Target& target, std::ostream* out)
     *out << hwy::TargetName(target.m_bit);
 }
 
-/// What this processor and this build have.
+/// The instruction sets of this processor and build.
 inline std::vector<Target> availableTargets()
 {
     std::vector<Target> result;
@@ -85,7 +85,7 @@ inline TetMesh firstElements(const TetMesh& mesh, int count)
     return TetMesh(X, tets);
 }
 
-/// Element kernels with all that they read and write. Rotations start from the identity.
+/// Element kernels with their input and output arrays. Rotations start from the identity.
 template <class Real>
 struct ElementCase
 {
@@ -128,7 +128,7 @@ struct ElementCase
         return cornerSums();
     }
 
-    /// A p without mass; forces() has been called.
+    /// A p without mass; forces() must have been called.
     std::vector<Vec3> times(const std::vector<Vec3>& p)
     {
         const std::vector<PaddedVec3> in = padded(p);

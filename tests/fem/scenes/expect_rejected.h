@@ -11,7 +11,7 @@
 namespace bullet_fem
 {
 
-/// Expects std::invalid_argument from `build` with every one of `parts` in its message.
+/// Expects std::invalid_argument from `build`, with all of `parts` in its message.
 template <typename Build>
 void expectRejected(Build build, std::initializer_list<const char*> parts)
 {

@@ -10,8 +10,8 @@
 namespace bullet_fem
 {
 
-/// A ball around the origin with a ball left out of it [m]: the triangles of a sphere of `cells` cells in `layers`
-/// layers of prisms, three elements each.
+/// A hollow ball around the origin [m]: the triangles of a sphere of `cells` cells, extruded to `layers` layers of
+/// prisms of three elements each.
 inline TetMesh hollowSphere(double inner, double outer, int cells, int layers)
 {
     const TetMesh ball = makeSphere(1, cells);
@@ -30,7 +30,7 @@ inline TetMesh hollowSphere(double inner, double outer, int cells, int layers)
         for (const Triangle& triangle : ball.surface())
         {
             Triangle t = {number[triangle[0]], number[triangle[1]], number[triangle[2]]};
-            std::sort(t.begin(), t.end());  // so that neighbours cut the side between them alike
+            std::sort(t.begin(), t.end());  // so that neighbours split their common face equally
             const int a = t[0] + layer * count, b = t[1] + layer * count, c = t[2] + layer * count;
             tets.push_back({a, b, c, c + count});
             tets.push_back({a, b, b + count, c + count});
@@ -39,7 +39,7 @@ inline TetMesh hollowSphere(double inner, double outer, int cells, int layers)
     return TetMesh(X, tets);
 }
 
-/// The elements of a mesh whose middle is not in a hole.
+/// A copy of a mesh without the elements whose centroid is in a hole.
 inline TetMesh withHoles(const TetMesh& mesh, const std::function<bool(const Vec3& middle)>& isHole)
 {
     const std::vector<Vec3>& X = mesh.restPositions();

@@ -13,7 +13,7 @@ namespace bullet_fem
 
 TetMesh makeLatticeBox(const std::array<int, 3>& cells, double cell)
 {
-    std::map<std::array<int, 3>, int> nodes;  // by twice their place
+    std::map<std::array<int, 3>, int> nodes;  // by twice their coordinates
     std::vector<Vec3> X;
     const auto node = [&](const std::array<int, 3>& place)
     {
@@ -30,7 +30,7 @@ TetMesh makeLatticeBox(const std::array<int, 3>& cells, double cell)
                     {
                         const std::array<int, 3> cube = {x, y, z}, middle = {2 * x + 1, 2 * y + 1, 2 * z + 1};
                         const bool onBoundary = side < 0 ? cube[axis] == 0 : cube[axis] == cells[axis] - 1;
-                        if (side > 0 && !onBoundary) continue;  // the next cube's
+                        if (side > 0 && !onBoundary) continue;  // belongs to the next cube
                         std::array<int, 3> other = middle;
                         other[axis] += onBoundary ? side : 2 * side;
                         const int b = (axis + 1) % 3, c = (axis + 2) % 3;

@@ -9,12 +9,12 @@
 namespace bullet_fem
 {
 
-/// A box [0, cells] of unit cubes in a body-centred lattice: around the axis between the middles of two cubes there are
-/// four elements, an octahedron, and between a middle and the boundary half of one. Scaled by `cell` [m].
+/// A box [0, cells] of unit cubes as a body-centred lattice, scaled by `cell` [m]: the axis between the centres of two
+/// cubes is surrounded by an octahedron of four elements, that between a centre and the boundary by half of one.
 TetMesh makeLatticeBox(const std::array<int, 3>& cells, double cell);
 
-/// A box whose inner nodes are moved at random by up to `share` of a cell, elements in random order and turned about:
-/// a mesh that shows nothing of how it was made.
+/// A mesh with inner nodes moved at random by up to `share` of a cell, and with elements in random order and node
+/// order, so that its construction cannot be recognised.
 TetMesh shuffledMesh(const TetMesh& mesh, double share, unsigned seed);
 
 }  // namespace bullet_fem

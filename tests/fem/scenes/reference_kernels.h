@@ -9,11 +9,11 @@
 namespace bullet_fem
 {
 
-/// The kernels of factors in plain C++: what those for vectors are tested against.
+/// The factor's kernels in plain C++: the reference for vectorised ones.
 namespace reference
 {
 
-/// One pivot after the other.
+/// Eliminates one pivot after another.
 int eliminatePivots(const DenseFront& front, double& pivotValue);
 void subtractProduct(const DenseProduct& product);
 

@@ -9,8 +9,8 @@
 namespace bullet_fem
 {
 
-/// K of a shape that bends accurately, from its energy alone: the patches' sum of (lambda + 2/3 mu) V theta^2 / 2, and
-/// mu |dev(s_k)|^2 times its smoothed volume of every edge domain and mu (1 - b) V |dev(eps_e)|^2 of every element.
+/// K of a shape with accurate bending, from its energy alone: the sums of (lambda + 2/3 mu) V theta^2 / 2 over patches,
+/// of mu |dev(s_k)|^2 times the smoothed volume over edge domains, and of mu (1 - b) V |dev(eps_e)|^2 over elements.
 /// Unknown 3 i + c is component c of node i.
 Eigen::SparseMatrix<double> smoothedStiffness(const RestShape& shape);
 

@@ -104,7 +104,7 @@ bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth)
     return std::any_of(cage.m_mesh.surface().begin(), cage.m_mesh.surface().end(),
                        [&](const Triangle& t)
                        {
-                           // A thin tet that stands on the outer side of the face.
+                           // A thin tet on the outer side of the face.
                            const Vec3 &a = X[t[0]], &b = X[t[1]], &c = X[t[2]], n = cross(b - a, c - a);
                            const Vec3 tip = (a + b + c) * (1.0 / 3) + n * (1e-3 / std::sqrt(norm(n)));
                            return tree.entersTet({a, c, b, tip}, depth);

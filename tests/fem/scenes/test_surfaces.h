@@ -13,15 +13,14 @@ SurfaceMesh boxSurface(const Vec3& low, const Vec3& high);                 ///< 
 SurfaceMesh sphereSurface(double radius, const Vec3& centre, int levels);  ///< icosahedron, split `levels` times
 SurfaceMesh torusSurface(double major, double minor, int around);          ///< around z; around x around / 2 quads
 
-/// Both triangle soups in one.
+/// The union of both triangle soups.
 SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b);
-/// Every triangle turned.
+/// The surface with all triangles reversed.
 SurfaceMesh flipped(SurfaceMesh surface);
-/// Without the triangles from `first` to before `last`.
+/// The surface without the triangles [first, last).
 SurfaceMesh without(SurfaceMesh surface, int first, int last);
 
-/// True if a triangle of the surface comes through a face of the cage's boundary, deeper than `depth` [m] at every
-/// edge.
+/// True if a triangle of the surface crosses a face of the cage's boundary, deeper than `depth` [m] at each edge.
 bool piercesBoundary(const Cage& cage, const SurfaceMesh& surface, double depth);
 
 /// Settings for a cage with cells of this size [m].

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The element kernels of bodies side by side give every body the bits of the kernels of a single one.
+// The batched element kernels give each body the bits of the kernels for a single body.
 #include "fem/batch/batch_elements.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool sameBits(double a, double b)
     return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
-/// Copies of a mesh, each strained, turned and moving in its own way, alone and in lanes.
+/// Copies of a mesh, strained, rotated and moving differently, as single bodies and in lanes.
 class StrainedCopies
 {
 public:
@@ -75,7 +75,7 @@ public:
         for (int b = 0; b < kBatchWidth; ++b) expectSums(b, m_product[b]);
     }
 
-    // The one that is spared keeps what it had.
+    // The excluded body keeps its rotations.
     void expectTheirRotations() const
     {
         const std::vector<Quaternion> before(m_alone[0].m_rotation.size());
@@ -103,7 +103,7 @@ public:
 private:
     static constexpr int kSpared = 5;
 
-    // Copy 2 is inside out, 3 flat, 4 a point: what converges late, or goes the long way.
+    // Copy 2 is inverted, 3 flat, 4 a point: they converge late, or need the singular value path.
     std::vector<Vec3> positions(int b) const
     {
         RandomVectors random(9 + b);
@@ -169,7 +169,7 @@ std::vector<Target> vectorTargets()
 class ElementsSideBySide : public OnTarget
 {
 protected:
-    // Of fewer elements than a block has, of as many and of more.
+    // Meshes with fewer elements than a block, with exactly one block, and with more.
     static std::vector<TetMesh> meshes()
     {
         const TetMesh box = makeBox({1, 0.6, 0.5}, {4, 2, 2}, {}, CellSplit::kuhnSix);
@@ -180,7 +180,7 @@ protected:
 TEST_P(ElementsSideBySide, HaveTheSameBitsAsAlone)
 {
     for (const TetMesh& mesh : meshes())
-        for (const double nu : {0.3, 0.49})  // elements of their own, and in patches
+        for (const double nu : {0.3, 0.49})  // without patches, and with them
         {
             SCOPED_TRACE(std::to_string(mesh.tetCount()) + " elements, nu " + std::to_string(nu));
             StrainedCopies copies(mesh, nu);

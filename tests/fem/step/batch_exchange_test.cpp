@@ -10,7 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Arrays of kBatchWidth bodies with numbers that say where they are, and room for lanes.
+/// Arrays of kBatchWidth bodies with values that encode their index, and memory for lanes.
 template <class Real>
 class ExchangeCase
 {
@@ -50,7 +50,7 @@ public:
                         << value << ", " << row << ", " << b;
     }
 
-    // Into arrays of -1, but of two bodies.
+    // Copies back into arrays of -1, except for two bodies.
     void expectWayBack() const
     {
         std::vector<std::vector<Real>> back(kBatchWidth, std::vector<Real>(m_size, Real(-1)));
@@ -85,7 +85,7 @@ protected:
     }
 };
 
-// Numbers of values that are a multiple of what vectors take at a time, and that are not.
+// Counts that are multiples of the vector width, and others.
 TEST_P(LaneExchange, RestoresAllLanes)
 {
     for (const int count : {1, 2, 3, 4, 5, 7, 16, 17, 63})

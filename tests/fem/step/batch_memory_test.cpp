@@ -47,7 +47,7 @@ TEST(BatchMemory, LendsEveryModelItsOwn)
     EXPECT_EQ(&BatchLoan(memory, a).arrays(), arrays);
 }
 
-// Another model may get the address of one that is gone.
+// A new model may have the address of a deleted one.
 TEST(BatchMemory, ForgetsReleasedModels)
 {
     BatchMemory memory;

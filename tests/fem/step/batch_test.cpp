@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies that are solved together get the bits that they get alone.
+// Bodies solved in a batch are bitwise equal to bodies solved one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ bool operator==(const SolveReport& a, const SolveReport& b)
     return a.m_iterations == b.m_iterations && a.m_residual == b.m_residual && a.m_stop == b.m_stop;
 }
 
-/// Copies of a block that differ in everything that bodies of one model may differ in.
+/// Copies of a block that differ in all state and parameters in which bodies of one model may differ.
 class Copies
 {
 public:
@@ -49,7 +49,7 @@ public:
         if (k % 3 == 1)
             for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i) body.m_state.m_fixed[i] = i % 7 == 0;
         disturb(body, 7 + k);
-        for (Vec3& v : body.m_state.m_v) v *= 0.2 * k;  // the first one's only
+        for (Vec3& v : body.m_state.m_v) v *= 0.2 * k;  // only the first one is at rest
         for (Vec3& v : body.m_loads.m_targetVelocity) v = {0, 0.05 * k, 0};
         StepSettings settings;
         settings.m_tolerance = k % 5 == 2 ? 1e-6 : 1e-3;
@@ -105,7 +105,7 @@ public:
         ++m_step;
     }
 
-    // How many bodies do not have to go alone.
+    // The number of bodies that may be batched.
     int sideBySide()
     {
         int result = 0;
@@ -135,7 +135,7 @@ public:
     std::vector<SolveReport> m_reports;  // of the free motion and the response of every body
 };
 
-// That many steps, bodies of one side by side and those of the other one by one.
+// Makes `count` steps, with batches in `together` and one by one in `alone`; expects equal bits.
 void expectSameSteps(Copies& together, Copies& alone, int count)
 {
     for (int k = 0; k < count; ++k)
@@ -177,7 +177,8 @@ TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
 
 INSTANTIATE_TEST_SUITE_P(Targets, BatchOnTarget, testing::ValuesIn(availableTargets()), targetName);
 
-// What the comparison above is worth: the bodies need different numbers of iterations, and stop for different reasons.
+// Checks that the comparison is meaningful: the bodies need different numbers of iterations, and stop for different
+// reasons.
 TEST(BatchOfCopies, ConvergesBodyByBody)
 {
     Copies bodies(freeBlock().m_model, 17);
@@ -203,7 +204,7 @@ TEST(BatchOfCopies, TakesBodiesOfOtherModelsAmongThem)
     expectSameSteps(together, alone, 10);
 }
 
-// Bodies that are large enough to be shared out, on the low-memory path, too.
+// Bodies large enough to be divided among threads, on the low-memory path, too.
 TEST(BatchOfCopies, HasTheSameBitsForEveryNumberOfThreads)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {10, 10, 9});
@@ -226,7 +227,7 @@ TEST(BatchOfCopies, HasTheSameBitsForEveryNumberOfThreads)
     }
 }
 
-// Bodies that no impulses followed in the last step leave out what only impulses need.
+// Bodies without impulses in the last step skip the work that only impulses need.
 TEST(BatchOfCopies, TakesIntermittentImpulses)
 {
     const auto model = freeBlock().m_model;
@@ -242,7 +243,7 @@ TEST(BatchOfCopies, TakesIntermittentImpulses)
     }
 }
 
-// Their ends are solved side by side, too.
+// The ends of second-order steps are batched, too.
 TEST(BatchOfCopies, TakesStepsOfSecondOrder)
 {
     const auto model = freeBlock().m_model;
@@ -255,7 +256,7 @@ TEST(BatchOfCopies, TakesStepsOfSecondOrder)
     }
 }
 
-// Tension damps what turns then, in one product more. A body that comes later knows other steps.
+// The damping by tension of varying steps needs one more product. A body added later has another history of steps.
 TEST(BatchOfCopies, TakesVaryingSteps)
 {
     const auto model = freeBlock().m_model;
@@ -287,7 +288,7 @@ TEST(BatchOfCopies, MayGoWithoutMomentumCorrection)
     expectSameSteps(together, alone, 5);
 }
 
-// A body that breaks down leaves the others alone.
+// The breakdown of one body does not affect the others.
 TEST(BatchOfCopies, LosesNoBodyBesideABadOne)
 {
     const auto model = freeBlock().m_model;

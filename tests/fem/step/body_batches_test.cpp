@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Bodies of a model that may be side by side, and of one that may not, in turns for as long as there are both.
+/// Bodies of a model that may be batched and of one that may not, alternating until one kind runs out.
 class BodyBatchesTest : public testing::Test
 {
 protected:
@@ -49,7 +49,7 @@ protected:
 
     const BodyModel* modelAt(int place) const { return m_bodies[m_batches.order()[place]].m_model.get(); }
 
-    // Batches of as many bodies.
+    // The number of batches of that many bodies.
     int batchesOf(int bodies) const
     {
         const auto has = [bodies](const Range& batch) { return batch.m_end - batch.m_begin == bodies; };
@@ -79,7 +79,7 @@ TEST_F(BodyBatchesTest, BodiesAreAloneIfBatchingIsOff)
     }
 }
 
-// Sixteen at a time, and what is left one by one, so that both threads end at about the same time.
+// Batches of sixteen, and the remainder one by one, so that both threads end at about one time.
 TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
 {
     divide(100, 0, 2);
@@ -87,7 +87,7 @@ TEST_F(BodyBatchesTest, FillTheLanesAndShareOutTheRest)
     EXPECT_EQ(batchesOf(1), 4);
 }
 
-// Many that are left are a batch, too: it takes as long as if it were full.
+// A large remainder is a batch, too: it takes as long as a full one.
 TEST_F(BodyBatchesTest, RemainingBodiesMakeABatch)
 {
     divide(94, 0, 2);

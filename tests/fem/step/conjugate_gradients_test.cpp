@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A dense matrix as an operator.
+/// A dense matrix as a linear operator.
 class DenseOperator : public LinearOperator
 {
 public:
@@ -27,7 +27,7 @@ private:
     Eigen::MatrixXd m_A;
 };
 
-/// An operator that answers a chosen application, counted from 0, with something else.
+/// An operator that returns a wrong result in a chosen application, counted from 0.
 class LyingOperator : public LinearOperator
 {
 public:
@@ -117,14 +117,14 @@ TEST_F(ConjugateGradients, ConvergesInOneIterationWithTheInverse)
     EXPECT_LE(error(), 1e-12);
 }
 
-// A scaled inverse is as good: the step length is optimal.
+// A scaled inverse is equally good: the step length is optimal.
 TEST_F(ConjugateGradients, IsInvariantToPreconditionerScale)
 {
     EXPECT_EQ(solve(m_A, DenseOperator(1e-7 * m_matrix.inverse())).m_iterations, 1);
     EXPECT_LE(error(), 1e-12);
 }
 
-// With k distinct eigenvalues k iterations are enough.
+// k distinct eigenvalues need k iterations.
 TEST_F(ConjugateGradients, ConvergesInAsManyIterationsAsDistinctEigenvalues)
 {
     Eigen::VectorXd d(3 * kNodes);
@@ -197,7 +197,7 @@ TEST_F(ConjugateGradients, StartsFromTheGuess)
     EXPECT_LE(error(), 1e-8);
 }
 
-// A guess that is right but for its length costs nothing, one that points the wrong way is as good as none.
+// An initial guess that is right up to its length costs no iteration; one in a wrong direction is as good as none.
 TEST_F(ConjugateGradients, ScalesTheGuessByItsOptimalLength)
 {
     const int cold = solve().m_iterations;
@@ -213,7 +213,7 @@ TEST_F(ConjugateGradients, ScalesTheGuessByItsOptimalLength)
     EXPECT_LE(error(), 1e-8);
 }
 
-// Else its error would be carried from step to step.
+// Otherwise its error would be carried from step to step.
 TEST_F(ConjugateGradients, AcceptsAGuessOnlyAtATenthOfTheTolerance)
 {
     m_stop.m_tolerance = 1e-2;
@@ -229,7 +229,7 @@ TEST_F(ConjugateGradients, AcceptsAGuessOnlyAtATenthOfTheTolerance)
     EXPECT_GT(guessWithResidual(5e-3), 0);
 }
 
-// Short of eight iterations and at loose tolerances the recurrence is believed: no product is spent on looking.
+// Below eight iterations and at loose tolerances the recurrence is trusted: no product is spent on a true residual.
 TEST_F(ConjugateGradients, SpendsNoProductOnTheTrueResidualAtLooseTolerances)
 {
     m_stop.m_tolerance = 1e-2;
@@ -277,7 +277,7 @@ TEST_F(ConjugateGradients, BreaksDownForANonPositiveSystem)
     }
 }
 
-// One negative eigenvalue: the iterations before it shows are kept.
+// One negative eigenvalue: the iterate before the breakdown is kept.
 TEST_F(ConjugateGradients, KeepsTheLastIterateOnBreakdown)
 {
     Eigen::MatrixXd indefinite = m_matrix;
@@ -305,7 +305,7 @@ TEST_F(ConjugateGradients, NeverPropagatesNaN)
         }
 }
 
-// A right side that is not finite has no answer: never "converged", and x stays what it was.
+// A right-hand side that is not finite is never reported as converged, and x is unchanged.
 TEST_F(ConjugateGradients, NeverReportsConvergenceForANonFiniteRightSide)
 {
     const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
@@ -318,8 +318,8 @@ TEST_F(ConjugateGradients, NeverReportsConvergenceForANonFiniteRightSide)
     }
 }
 
-// The recurrence believes what A said in the second iteration. It was wrong by 1 %, so that the residual it carries is
-// not the true one; it notices, starts anew and gets there.
+// A's second application has an error of 1 %, so that the recurrence's residual differs from the true one; the solver
+// detects it, restarts, and converges.
 TEST_F(ConjugateGradients, ChecksTheRecurrenceAgainstTheTrueResidual)
 {
     const LyingOperator A(m_A, 1, [](const Vec3& value) { return Vec3{1.01 * value.x, value.y, value.z}; });
@@ -333,7 +333,7 @@ TEST_F(ConjugateGradients, GivesTheSameBitsEveryTime)
     solve();
     const std::vector<Vec3> first = m_x;
     m_x.assign(kNodes, Vec3());
-    m_scratch.m_p = m_scratch.m_z = m_solution;  // what the scratch held does not matter
+    m_scratch.m_p = m_scratch.m_z = m_solution;  // its initial contents do not matter
     solve();
     EXPECT_EQ(largestDistance(first, m_x), 0);
 }

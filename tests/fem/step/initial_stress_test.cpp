@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies whose elements have a stress besides that of their strain.
+// Bodies with an initial stress in their elements.
 #include "bullet_fem/fem/body/initial_stress.h"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,9 @@ namespace
 
 constexpr double kYoung = 1e5, kPoisson = 0.3;  // [Pa], [-]
 constexpr double kBulk = kYoung / (3 * (1 - 2 * kPoisson));
-constexpr double kThermal = 0.01;  // strain that heat wants, alpha dT
+constexpr double kThermal = 0.01;  // free thermal strain, alpha dT
 
-// What a free body of that strain has none of: -3 K alpha dT I.
+// The initial stress that is relaxed by the free thermal strain: -3 K alpha dT I.
 SymmetricTensor thermalStress()
 {
     const double pressure = -3 * kBulk * kThermal;
@@ -39,7 +39,7 @@ void fill(Body& body, const SymmetricTensor& stress)
     setInitialStress(body, std::vector<SymmetricTensor>(body.m_model->mesh().tetCount(), stress));
 }
 
-// Different in every element, a tenth of E.
+// A random stress for each element, a tenth of E.
 std::vector<SymmetricTensor> randomStress(const Body& body)
 {
     RandomVectors random(3);
@@ -70,7 +70,7 @@ double distance(const Stress& a, const Stress& b)
     return std::sqrt(contraction(d, d));
 }
 
-// Heat is no stress where nothing holds: every edge is longer by alpha dT.
+// Free thermal expansion has no stress: each edge is longer by alpha dT.
 TEST(InitialStress, AFreeBarExpandsByTheFormula)
 {
     for (const double nu : {0.3, 0.45})  // without patches, and with them
@@ -90,8 +90,8 @@ TEST(InitialStress, AFreeBarExpandsByTheFormula)
     }
 }
 
-// A cable that pulls between two walls: nothing moves, and every section carries it. Cut loose at one end, the bar is
-// shorter by sigma / E, and across wider by Poisson's ratio times that, and carries nothing.
+// A prestressed bar between two walls: it stays at rest, and each section carries the stress. Released at one end, the
+// bar is shorter by sigma / E, wider by Poisson's ratio times that, and free of stress.
 TEST(InitialStress, AClampedBarCarriesItAndALooseOneGivesWay)
 {
     const double pull = 0.01 * kYoung;
@@ -118,7 +118,7 @@ TEST(InitialStress, AClampedBarCarriesItAndALooseOneGivesWay)
     EXPECT_NEAR(norm(x[across] - x[origin]), 0.2 * (1 + 0.01 * kPoisson), 1e-6);
 }
 
-// Everything is held: the stress is the initial one, turned with the body.
+// All nodes are held: the stress equals the initial one, rotated with the body.
 TEST(InitialStress, IsTheStressOfAnUnstrainedBody)
 {
     Body body = makeBody(bar(), still(0.45));
@@ -131,7 +131,7 @@ TEST(InitialStress, IsTheStressOfAnUnstrainedBody)
         EXPECT_LE(distance(elementStress(body, e), expected), 1e-9 * kYoung);
 }
 
-// In a patch the mean pressure counts, because the volume change is one.
+// In a patch only the mean pressure counts, because of mean dilatation.
 TEST(InitialStress, PressureIsSharedInPatches)
 {
     Body body = makeBody(bar(), still(0.45));
@@ -151,7 +151,7 @@ TEST(InitialStress, PressureIsSharedInPatches)
     for (std::size_t p = 0; p < sum.size(); ++p) EXPECT_NEAR(sum[p], expected[p], 1e-9 * kYoung);
 }
 
-// Of an element that is half full, half the force: a half full body expands as a full one does.
+// A half-filled element has half the force: a half-filled body expands as a full one does.
 TEST(InitialStress, ForcesCountTheFilledVolume)
 {
     const TetMesh mesh = bar();
@@ -168,7 +168,7 @@ TEST(InitialStress, ForcesCountTheFilledVolume)
                 (1 + kThermal) * norm(mesh.restPositions().back() - mesh.restPositions()[0]), 1e-6);
 }
 
-// The same motion in a turned frame, to the solver's tolerance.
+// The motion in a rotated frame is the rotated motion, to the solver's tolerance.
 TEST(InitialStress, TurnsWithTheBody)
 {
     const Mat3 Q = rotationAbout({1, -2, 3}, 2);
@@ -184,7 +184,7 @@ TEST(InitialStress, TurnsWithTheBody)
     EXPECT_LE(largestDistance(turned.m_state.m_x, expected), 1e-6);
 }
 
-// Without the correction of a step, too: elements have no torque (but K' has some, of the velocities).
+// Also without the rigid correction: elements have no torque, apart from K' of the velocities.
 TEST(InitialStress, MomentumIsExact)
 {
     for (const double damping : {1.0, 0.0})
@@ -202,7 +202,7 @@ TEST(InitialStress, MomentumIsExact)
     }
 }
 
-// It only moves the rest state: with implicit Euler the energy falls to that.
+// The initial stress only shifts the equilibrium: with implicit Euler the energy falls to its minimum.
 TEST(InitialStress, EnergyOnlyFalls)
 {
     Body body = makeBody(bar(), still(0.45));
@@ -218,8 +218,8 @@ TEST(InitialStress, EnergyOnlyFalls)
     EXPECT_LT(energy, -1e-3);  // of 0.04 m3 times some (0.1 E)^2 / E
 }
 
-// With the second-order step a strip that pulls hard between its ends must not shake itself apart: the tension of the
-// initial stress is in A.
+// With the second-order step a strip under strong initial tension comes to rest: A includes the tension of the initial
+// stress.
 TEST(InitialStress, APulledStripComesToRest)
 {
     for (const double damping : {1.0, 0.0})
@@ -283,7 +283,7 @@ TEST(InitialStress, IsRestored)
     expectRejected([&] { check(bad, *other.m_model); }, {"initial stress"});
 }
 
-// Zeroes are as good as none, to the bit, alone and beside others.
+// Zero initial stress is bitwise equal to none, alone and beside others.
 TEST(InitialStress, ZeroIsNone)
 {
     Body none = makeBody(bar(), still()), zero(none.m_model);
@@ -293,7 +293,7 @@ TEST(InitialStress, ZeroIsNone)
     EXPECT_LE(largestDistance(none.m_state.m_x, zero.m_state.m_x), 0);
 }
 
-// A body with an initial stress goes alone, and those beside it in their batch.
+// A body with an initial stress is solved alone, and the others in their batch.
 TEST(InitialStress, BatchedStepsHaveTheSameBits)
 {
     const Body first = makeBody(bar(), still());
@@ -322,7 +322,7 @@ TEST(InitialStress, BatchedStepsHaveTheSameBits)
     for (std::size_t k = 0; k < together.size(); ++k) EXPECT_TRUE(sameBits(together[k], alone[k])) << k;
 }
 
-// Nor does setting others: a muscle does that in every step.
+// Neither does changing the stress in each step, as a muscle does.
 TEST(InitialStress, StepsDoNotAllocate)
 {
     Body body = makeBody(bar(), still());

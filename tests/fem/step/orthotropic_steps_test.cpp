@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Steps of orthotropic bodies: the same bits for any number of threads and from a saved state, no memory taken, and a
-// factor that is their own.
+// Steps of orthotropic bodies: equal bits for any number of threads and after restoring a state, no allocation, and a
+// factor of the orthotropic stiffness.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-// Fibres that wind around x: a material an element.
+// Fibres that wind around x: a material per element.
 ElementMaterials windingFibres(const TetMesh& mesh, double young = 1e6)
 {
     std::vector<Material> perElement;
@@ -115,13 +115,13 @@ TEST_P(OrthotropicSteps, GoOnFromASavedState)
 TEST_P(OrthotropicSteps, AllocateNoMemory)
 {
     Body hung = body();
-    run(hung, 1);  // in double precision the first step does
+    run(hung, 1);  // the first step in double precision allocates
     const AllocationCounter counter;
     run(hung, 5);
     EXPECT_EQ(counter.count(), 0);
 }
 
-// The factor has the very C: it takes few iterations however stiff the fibres are.
+// The factor uses the body's own C: few iterations at any stiffness of the fibres.
 TEST_P(OrthotropicSteps, TakeFewIterationsWithTheirFactor)
 {
     const TetMesh mesh = makeBox({2, 1, 1}, {12, 6, 6});
@@ -138,7 +138,7 @@ TEST_P(OrthotropicSteps, TakeFewIterationsWithTheirFactor)
 INSTANTIATE_TEST_SUITE_P(Tolerances, OrthotropicSteps, testing::Values(1e-3, 1e-6),
                          [](const auto& suite) { return std::string(suite.param > 1e-4 ? "Single" : "Double"); });
 
-// They are solved one by one: the kernels that solve side by side know Hooke's law alone.
+// They are solved one by one: batched kernels are for Hooke's law only.
 TEST(OrthotropicBodies, AreNotSolvedSideBySide)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2});
@@ -150,7 +150,7 @@ TEST(OrthotropicBodies, AreNotSolvedSideBySide)
     EXPECT_FALSE(canBeBatched(FreeMotion{&fibrous, settings, {}}));
 }
 
-// As far off as the ratio of the steps that would be as bad: a C of four times the stiffness counts as two.
+// The mismatch is given as an equivalent ratio of steps: a C of four times the stiffness counts as two.
 TEST(OrthotropicBodies, TellHowStaleAFactorIs)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {2, 2, 2});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Reactions of fixed nodes: each is the derivative of the energy at rest, and all together are the momentum balance.
+//
+// Reactions of fixed nodes: each is the energy's derivative at rest, and their sum balances momentum.
 #include "bullet_fem/fem/step/reactions.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,8 @@ Vec3 sumOf(const std::vector<NodeReaction>& all)
     return sum;
 }
 
-// In a step of implicit Euler without damping every fixed node that stands still is held against the elastic force and
-// the load at the step's end, whatever the other nodes do; `others` is what else pulls at nodes [N].
+// In an undamped step of implicit Euler each fixed node at rest balances the elastic force and the load at the step's
+// end, for any motion of the other nodes; `others` are further forces on the nodes [N].
 void expectEnergyDerivatives(Body& body, const std::vector<Vec3>& others, double tolerance)
 {
     const std::vector<NodeReaction>* found = reactions(body);
@@ -69,7 +70,7 @@ TEST(Reactions, AreTheEnergysDerivativeAtRest)
     EXPECT_NEAR(0.2 * double(nodes), sumOf(*reactions(beam)).z, 1e-8);
 }
 
-// Quasi-Newton iterations follow the linear solve by then, and leave up to a twentieth of its right-hand side.
+// Quasi-Newton iterations follow the linear solve in this step, and leave up to a twentieth of its right-hand side.
 TEST(Reactions, AreTheEnergysDerivativeInAViolentStep)
 {
     Material material = elasticMaterial(2e4, 0.3);
@@ -105,12 +106,12 @@ TEST(Reactions, IncludeTheTensionOfACable)
     EXPECT_GT(tension, 100);
     std::vector<Vec3> pull(mesh.nodeCount());
     pull[held] = (tension / norm(along)) * along;
-    beam.m_actuators = {};  // before anybody asks
+    beam.m_actuators = {};  // before the reactions are read
     expectEnergyDerivatives(beam, pull, 0.01 * tension);
 }
 
-// Three nodes in a line along y but for the middle one: from a lever of 1e-3 of the radius of gyration on they bear a
-// moment about the line.
+// Three nodes on a line along y, the middle one displaced: with a lever above 1e-3 of the radius of gyration they bear
+// a moment about the line.
 TEST(Reactions, BearAMomentForNodesBesideALine)
 {
     const auto isHeld = [](const Vec3& X) { return X.x == 0 && X.z == 0.2; };
@@ -147,7 +148,7 @@ class HeldMotion : public testing::TestWithParam<HeldStep>
 {
 };
 
-// Of nodes that are moved at random, under impulses as of contact, on fixed nodes, too.
+// Fixed nodes with random motion, and impulses as of contact, also on fixed nodes.
 TEST_P(HeldMotion, BalancesMomentumInEveryStep)
 {
     Body beam = clampedBeam();
@@ -206,10 +207,10 @@ TEST(Reactions, AreUnknownUntilAStepComputesThem)
     step(beam, settings);
     EXPECT_TRUE(reactions(beam));
     beam.setModel(clampedBeam().m_model);
-    EXPECT_FALSE(reactions(beam)) << "of another factor";
+    EXPECT_FALSE(reactions(beam)) << "with another factor";
     Body block = freeBlock();
     step(block, settings);
-    EXPECT_FALSE(reactions(block)) << "of a body that nothing holds";
+    EXPECT_FALSE(reactions(block)) << "of a free body";
 }
 
 }  // namespace

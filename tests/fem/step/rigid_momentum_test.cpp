@@ -16,14 +16,14 @@ namespace
 
 constexpr double kStep = 1.0 / 50;
 
-// In a step of implicit Euler: levers are measured from where the nodes are.
+// Prescribes the momenta of an implicit Euler step: levers are measured from the present positions.
 void prescribe(RigidMomentum& momentum, Body& body)
 {
     beginDrift(body, StepSettings());
     momentum.prescribe(body, kStep);
 }
 
-// Linear and angular momentum about a point, and the sizes that rounding is measured against.
+// Linear and angular momentum about a point, with the magnitudes that rounding is measured against.
 struct Momentum
 {
     Vec3 m_linear, m_angular;
@@ -58,7 +58,7 @@ TetMesh twoBoxes()
     return TetMesh(X, tets);
 }
 
-// Two pieces far from the origin, damped, moving and loaded at random.
+// Two components far from the origin, damped, with random velocities and loads.
 class RigidMomentumTest : public testing::Test
 {
 protected:
@@ -97,7 +97,7 @@ protected:
         return (1 / mass) * sum;
     }
 
-    // Of a piece, with node momenta p(i).
+    // Momenta of a component with node momenta p(i).
     template <typename NodeMomentum>
     Momentum momentum(int piece, NodeMomentum p) const
     {
@@ -192,11 +192,11 @@ TEST_F(RigidMomentumTest, LeavesAClampedComponentAlone)
     expectSame(restored(1 - fixedPiece), prescribed(1 - fixedPiece, 1), 1e-14);
 }
 
-// A piece that hangs on the nodes of one edge of its box, or on one node, which move with a velocity.
+// A component with fixed nodes, those of one edge of its box or a single node, which move with a velocity.
 class HungComponent : public RigidMomentumTest
 {
 protected:
-    // Box 0's nodes on the edge along x, not yet where the random numbers put them.
+    // Box 0's nodes on the edge along x, before positions are randomised.
     void hang(int nodes)
     {
         const std::vector<Vec3>& X = m_body.m_model->mesh().restPositions();
@@ -213,7 +213,7 @@ protected:
         ASSERT_EQ(nodes, 0);
     }
 
-    // Momentum about the pin less that which it moves with, after impulses.
+    // Momentum about the pin minus that of the pin's own motion, after impulses.
     Vec3 momentumAfterImpulses()
     {
         prescribe(m_momentum, m_body);
@@ -268,7 +268,7 @@ TEST_F(HungComponent, GetsTheAngularMomentumAboutItsHinge)
     const Vec3 got = momentumAfterImpulses();
     EXPECT_FALSE(m_pinsMoved);
     EXPECT_NEAR(got.x, expected().x, 1e-11 * norm(expected()));
-    EXPECT_GT(norm(got - expected()), 0.1 * norm(expected()));  // the hinge takes the rest
+    EXPECT_GT(norm(got - expected()), 0.1 * norm(expected()));  // the hinge bears the rest
 }
 
 TEST_F(HungComponent, IsClampedByANodeBesideItsHinge)
@@ -291,7 +291,7 @@ TEST_F(HungComponent, IsClampedByATurningHinge)
     EXPECT_FALSE(m_anyMoved);
 }
 
-// Random velocities and loads are of order one; so is what is left of them, whatever rounding makes of the inertia.
+// Random velocities and loads are of order one, and so is the result, for any rounding of the inertia.
 TEST_F(RigidMomentumTest, StaysBoundedForABodyCollapsedToAPoint)
 {
     m_body.m_state.m_x.assign(m_velocity.size(), {1, 2, 3});
@@ -300,8 +300,8 @@ TEST_F(RigidMomentumTest, StaysBoundedForABodyCollapsedToAPoint)
     for (const Vec3& v : m_velocity) EXPECT_LT(norm(v), 10);
 }
 
-// About the line there is no inertia; across it momentum is restored, to what the inverse of a tensor of condition 1e14
-// is worth.
+// There is no inertia about the line; across it momentum is restored to the accuracy of inverting a tensor of condition
+// 1e14.
 TEST_F(RigidMomentumTest, RestoresTheMomentumOfABodyCollapsedToALine)
 {
     const Vec3 axis = {0.6, 0, 0.8};

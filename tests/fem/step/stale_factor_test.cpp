@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// A factor is only a preconditioner: one that no longer fits the system costs iterations, never correctness.
+// A factor is only a preconditioner: a stale one costs iterations, and the solution stays right.
 #include <gtest/gtest.h>
 
 #include <functional>

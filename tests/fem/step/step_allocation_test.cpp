@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What a step changes never allocates.
+// Changing conditions cause no allocation in a step.
 #include <gtest/gtest.h>
 
 #include <tuple>
@@ -55,7 +55,7 @@ TEST_P(StepAllocations, ThereAreNoneInAnyStep)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// Flat, inverted and collapsed elements go the long way through the singular values.
+// Flat, inverted and collapsed elements use the singular value path.
 TEST_P(StepAllocations, ThereAreNoneForDegenerateElements)
 {
     for (std::size_t i = 0; i < m_body->m_state.m_x.size(); ++i) m_body->m_state.m_x[i].z *= i % 3 == 0 ? 0 : -1;
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, StepAllocations,
                                     (std::get<2>(suite.param) ? "Clamped" : "Free");
                          });
 
-// Eight bodies that need different numbers of iterations, in memory that one step has filled.
+// Eight bodies with different numbers of iterations, in scratch memory sized by one step.
 TEST(BatchAllocations, ThereAreNoneInAnyStep)
 {
     std::vector<Body> bodies;
@@ -107,7 +107,7 @@ TEST(BatchAllocations, ThereAreNoneInAnyStep)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// The contact solver's scratch grows with the number of contacts: no more after a step with as many.
+// The contact solver's scratch grows with the number of contacts, and never after a step with as many.
 TEST(ContactAllocations, ThereAreNoneAfterAStepWithAsManyContacts)
 {
     ContactScene scene;
@@ -128,7 +128,7 @@ TEST(ContactAllocations, ThereAreNoneAfterAStepWithAsManyContacts)
     EXPECT_EQ(counter.count(), 0);
 }
 
-// Other nodes than before, so that columns of the compliance are thrown out and solved again.
+// Contacts at other nodes, so that columns of the compliance are evicted and solved again.
 TEST(ContactAllocations, ThereAreNoneWhenContactsWander)
 {
     ContactScene scene;

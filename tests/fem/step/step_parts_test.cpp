@@ -8,7 +8,7 @@
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/stepping_scenes.h"
 
-/// What a step is made of: free motion, impulses, pushes.
+/// The parts of a step: free motion, impulses, position corrections.
 namespace bullet_fem
 {
 namespace
@@ -47,7 +47,7 @@ TEST(Parts, ImpulsesOfZeroAndOnFixedNodesDoNothing)
     EXPECT_EQ(largestDistance(velocity(body), before), 0);
 }
 
-// An impulse that is not worth a solve changes the momentum by itself all the same.
+// An impulse too small to be solved for still changes the momentum.
 TEST(Parts, ImpulsesTooSmallToBeSolvedForKeepMomentum)
 {
     Body body = freeBlock();
@@ -66,7 +66,7 @@ TEST(Parts, ImpulsesTooSmallToBeSolvedForKeepMomentum)
     EXPECT_LE(norm(angularMomentum(after) - angularMomentum(before) - L), 1e-12 * (norm(L) + norm(J)));
 }
 
-// A push moves this step's positions by h P J, and nothing afterwards.
+// A position correction moves this step's positions by h P J, and changes no velocity.
 TEST(Parts, PushesMoveWithoutVelocity)
 {
     Body body = clampedBeam();

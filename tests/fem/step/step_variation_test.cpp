@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// How the recent steps of a body varied. What tension does with it: elasticity/tension_test.cpp.
+// The variation of a body's recent steps. Its effect with tension: elasticity/tension_test.cpp.
 #include "fem/solve/step_variation.h"
 
 #include <gtest/gtest.h>
@@ -48,12 +48,12 @@ TEST_F(StepVariation, IsZeroForEqualSteps)
 TEST_F(StepVariation, IsThatOfTheSquaresOfTheLongestAndTheShortest)
 {
     EXPECT_EQ(after(1.0 / 60), 0);
-    EXPECT_NEAR(after(1.0 / 240), 1 - 1.1 * 1.1 / 16, 1e-14);  // the one before has lost a tenth
+    EXPECT_NEAR(after(1.0 / 240), 1 - 1.1 * 1.1 / 16, 1e-14);  // the one before has decayed by a tenth
     EXPECT_NEAR(after(1.0 / 60), 1 - 1.1 * 1.1 / 16, 1e-14);
     EXPECT_NEAR(after(1.0 / 15), 1 - 1.21 * 1.21 / 256, 1e-14);
 }
 
-// 1.1^15 is 4.2. A program that takes other steps from now on is damped as little as if it always had.
+// 1.1^15 is 4.2. After a change of the step the extra damping decays as if the new step had always been used.
 TEST_F(StepVariation, IsForgottenWithinFifteenStepsOfAQuarter)
 {
     for (const double others : {1.0 / 240, 1.0 / 15})

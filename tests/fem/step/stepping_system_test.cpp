@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The increment of a step against a dense solution of the system as stepping.h states it.
+// The increment of a step against a dense solution of the system in stepping.h.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -66,7 +66,7 @@ protected:
         disturb(m_body);
         m_body.m_loads.m_massDamping = 0.7;
         for (std::size_t i = 0; i < m_fixed.size(); ++i) m_body.m_loads.m_targetVelocity[i] = {0.1, -0.2, 0.3};
-        m_settings.m_step = 0.02;  // not the factor's
+        m_settings.m_step = 0.02;  // differs from the factor's
         m_settings.m_tolerance = 1e-8;
         m_settings.m_maxIterations = 500;
         m_settings.m_warp = GetParam().m_warp;
@@ -74,7 +74,7 @@ protected:
         m_settings.m_momentumCorrection = false;
     }
 
-    // Needs the element rotations of the step.
+    // Requires the element rotations of the step.
     void assemble()
     {
         const Material& material = m_body.m_model->shape().m_material;
@@ -88,7 +88,7 @@ protected:
         m_A.diagonal() += (1 + h * alpha) * M;
         if (GetParam().m_tension) m_A += h * h * denseTension(m_body, R);
 
-        // K' x - sum R K_e X: the elements' own rest shapes, turned.
+        // K' x - sum R K_e X: minus the elements' rotated rest shapes.
         Eigen::VectorXd elastic = -K * flat(m_body.m_state.m_x);
         for (int e = 0; e < mesh.tetCount(); ++e)
         {
@@ -103,7 +103,7 @@ protected:
         m_b = h * (flat(m_body.m_loads.m_force) + elastic - alpha * M.cwiseProduct(v) - K * w);
     }
 
-    // omega x (omega x r) with the angular velocity that the loads leave a body that turns freely.
+    // omega x (omega x r) with the angular velocity of a freely rotating body after the loads.
     Eigen::VectorXd turning(double alpha) const
     {
         const BodyState& s = m_body.m_state;
@@ -166,7 +166,8 @@ TEST_P(DenseStep, ImpulsesAddTheirResponse)
     EXPECT_LE((flat(velocity(m_body)) - before - response).norm(), 1e-6 * response.norm());
 }
 
-// Ten responses that are hardly solved, or not at all, and a last one that is: nothing of the ten is missing.
+// Ten responses that are solved loosely or not at all, and a last one that is solved: it includes the residuals of the
+// ten.
 TEST_P(DenseStep, LaterResponsesCorrectEarlierResiduals)
 {
     solveFreeMotion(m_body, m_settings);
@@ -192,7 +193,7 @@ TEST_P(DenseStep, LaterResponsesCorrectEarlierResiduals)
     EXPECT_LE((flat(velocity(m_body)) - before - response).norm(), 1e-6 * response.norm());
 }
 
-// What holds a body where it is: the guess is the answer, to rounding.
+// Loads in equilibrium: the warm start is the solution, to rounding.
 TEST_P(DenseStep, SteadyGuessSavesTheSolve)
 {
     for (Vec3& v : m_body.m_state.m_v) v = {};

@@ -59,7 +59,7 @@ TEST(FixedNodes, FollowTheirTargetsToTheBit)
     EXPECT_EQ(followed, 9);
 }
 
-// A clamp that moves as a rigid body takes the rest along without strain: implicit Euler at constant velocity is exact.
+// Fixed nodes with rigid motion move the body without strain: implicit Euler at constant velocity is exact.
 TEST(FixedNodes, TakeTheBodyAlongInUniformMotion)
 {
     Material material = dampedMaterial();
@@ -85,7 +85,7 @@ TEST(FixedNodes, MayBeAllThereIs)
     EXPECT_EQ(body.m_state.m_v[7].x, 1);
 }
 
-// --- Motions known by hand ---
+// --- Closed-form motions ---
 
 // v_n = v0 + n h g, x_n = x0 + n h v0 + g h^2 n (n + 1) / 2, for every node and any mesh.
 TEST(FreeFall, IsImplicitEulersOwn)
@@ -107,7 +107,7 @@ TEST(FreeFall, IsImplicitEulersOwn)
     }
 }
 
-// The rigid guess is the answer: nothing is left to iterate.
+// The rigid warm start is the solution: no iteration is needed.
 TEST(FreeFall, TakesNoIteration)
 {
     Body body = freeBlock();
@@ -117,7 +117,7 @@ TEST(FreeFall, TakesNoIteration)
     EXPECT_EQ(report.m_stop, SolveStop::converged);
 }
 
-// v' = v / (1 + h alpha), alpha of the material and of the loads together.
+// v' = v / (1 + h alpha), where alpha is the sum of the material's and the loads'.
 TEST(MassDamping, SlowsAFreeBody)
 {
     Body body = freeBlock();
@@ -127,7 +127,7 @@ TEST(MassDamping, SlowsAFreeBody)
     EXPECT_NEAR(body.m_state.m_v[5].x, 2 * std::pow(1 + 1.0 / 60, -10), 1e-12);
 }
 
-// The rounding of strains is all that moves it.
+// The body moves by rounding of strains only.
 TEST(Rest, IsNotDisturbed)
 {
     Body body = clampedBeam();
@@ -179,7 +179,7 @@ TEST(Invariants, MatchHandValues)
     EXPECT_NEAR(mechanicalEnergy(body), 2 + 1.75 / 6, 1e-13);
 }
 
-// --- How the solve ends ---
+// --- Termination of the solve ---
 
 TEST(DirectMode, TakesOneIteration)
 {
@@ -191,7 +191,7 @@ TEST(DirectMode, TakesOneIteration)
     const SolveReport report = step(body, settings);
     EXPECT_EQ(report.m_iterations, 1);
     EXPECT_EQ(report.m_stop, SolveStop::budget);
-    EXPECT_LT(report.m_residual, 0.2);  // and a good one
+    EXPECT_LT(report.m_residual, 0.2);  // the iteration is accurate
 }
 
 TEST(Budget, IsReportedAndTheAnswerUsed)
@@ -251,7 +251,7 @@ TEST(Repeatability, TwoRunsGiveTheSameBits)
     std::vector<Vec3> last;
     for (int run = 0; run < 3; ++run)
     {
-        Body body = run < 2 ? Body(shared) : freeBlock();  // a shared factor, and one made anew
+        Body body = run < 2 ? Body(shared) : freeBlock();  // a shared factor, and a new one
         disturb(body);
         for (int k = 0; k < 30; ++k) step(body, StepSettings());
         if (run == 0) last = body.m_state.m_x;
@@ -259,8 +259,8 @@ TEST(Repeatability, TwoRunsGiveTheSameBits)
     }
 }
 
-// The increments of the last two steps, continued, save iterations where the motion is smooth, and change the answer by
-// no more than the tolerance allows.
+// Extrapolating the increments of the last two steps saves iterations in smooth motion, and changes the solution within
+// the tolerance.
 TEST(WarmStart, LastTwoIncrementsSaveIterations)
 {
     Body warm =
@@ -282,7 +282,7 @@ TEST(WarmStart, LastTwoIncrementsSaveIterations)
     EXPECT_LE(largestDistance(warm.m_state.m_x, cold.m_state.m_x), 2e-3 * moved);
 }
 
-// What the state remembers is only where the search starts.
+// The stored increments are only an initial guess.
 TEST(WarmStart, GuessOfAnotherMotionDoesNoHarm)
 {
     Body body =
@@ -305,7 +305,7 @@ TEST(WarmStart, GuessOfAnotherMotionDoesNoHarm)
 
 TEST(AbandonedStep, LeavesTheBodyInPlaceWithoutMotion)
 {
-    constexpr double kTooFast = 1e13;  // squared, and in single precision, it still is a number
+    constexpr double kTooFast = 1e13;  // its square is finite in single precision
     Body body = makeBody(makeBox({1, 1, 1}, {1, 1, 1}), elasticMaterial(1e5, 0.3));
     const StepSettings settings;
     solveFreeMotion(body, settings);
@@ -317,7 +317,7 @@ TEST(AbandonedStep, LeavesTheBodyInPlaceWithoutMotion)
     applyPositionCorrection(body, std::vector<Vec3>(change.size(), Vec3{0, 0, 1}), settings);
     const std::vector<Vec3> before = body.m_state.m_x;
     abandonStep(body);
-    step(body, settings);  // in which nothing of it may be left
+    step(body, settings);  // no residue of the last step may be left
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(norm(body.m_state.m_x[i] - before[i]), 1e-12) << i;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// One element and patches of them under deformations that are given: Hooke's law by hand.
+// One element and patches of them under prescribed deformations: Hooke's law in closed form.
 #include "bullet_fem/fem/step/stress.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace
 constexpr double kYoung = 2e6, kPoisson = 0.3;  // [Pa], [-]
 constexpr double kLambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson)),
                  kMu = kYoung / (2 * (1 + kPoisson));
-constexpr double kRounding = 1e-14 * kYoung;  // of strains around 1, some hundred times
+constexpr double kRounding = 1e-14 * kYoung;  // strains near 1, some hundred roundings
 
 Body oneElement()
 {
@@ -68,7 +68,7 @@ TEST(Stress, FreeContractionGivesYoungsModulusTimesStrain)
     EXPECT_NEAR(vonMises(elementStress(body, 0)), kYoung * strain, kYoung * 1e-12);
 }
 
-// Pure shear, so that F is its own stretch: gamma / 2 on either side of the diagonal.
+// Pure shear, with F equal to its stretch: gamma / 2 on both off-diagonal entries.
 TEST(Stress, PureShearIsTheShearModulusTimesTheAngle)
 {
     Body body = oneElement();
@@ -98,7 +98,7 @@ TEST(Stress, TurnsWithTheBody)
     EXPECT_NEAR(vonMises(elementStress(body, 0)), vonMises(before), 1e-12 * kYoung);
 }
 
-// To rounding: positions of 100 m have digits down to 1.4e-14 m, edges are 1 m.
+// Accurate to rounding: positions of 100 m have a resolution of 1.4e-14 m, edges are 1 m.
 TEST(Stress, ARigidMotionGivesNone)
 {
     Body body = oneElement();
@@ -137,8 +137,8 @@ TEST(Stress, BalancesTheForcesOfTheElement)
     }
 }
 
-// Beside the exact Cauchy stress P F^T / det F of the same energy, P = R sigma_lin: in tension with free contraction
-// the exact one is 1 / (1 - nu strain)^2 times as large, 0.6 % at 1 % strain and 21 % at 30 %.
+// Against the exact Cauchy stress P F^T / det F of the energy, P = R sigma_lin: in uniaxial tension the exact one is 1
+// / (1 - nu strain)^2 times as large, 0.6 % at 1 % strain and 21 % at 30 %.
 TEST(Stress, DiffersFromTheExactCauchyStressInTheOrderOfTheStrain)
 {
     Body body = oneElement();
@@ -165,7 +165,7 @@ TEST(Stress, IsFiniteForFlatInvertedAndCollapsedElements)
     expectStress(elementStress(body, 0), Mat3::diagonal(-(3 * kLambda + 2 * kMu)));
 }
 
-// A patch under one deformation: every element and every node has the same stress, whatever fills the elements.
+// A patch under uniform deformation: all elements and nodes have equal stress, for any filled fractions.
 TEST(Stress, IsUniformInAPatchAlsoOfPartlyFilledElements)
 {
     const TetMesh mesh = makeBox({1, 2, 1}, {2, 3, 2});
@@ -187,7 +187,7 @@ TEST(Stress, IsUniformInAPatchAlsoOfPartlyFilledElements)
     for (const Stress& s : perNode) expectStress(s, {{{kYoung * strain, 0, 0}, {}, {}}});
 }
 
-// Two elements on a common face, the second twice as large: a node of the face gets a third and two thirds.
+// Two elements with a common face, the second twice as large: weights of a node of the face are a third and two thirds.
 TEST(Stress, NodeStressIsTheVolumeWeightedMean)
 {
     const TetMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 2}, {5, 5, 5}},

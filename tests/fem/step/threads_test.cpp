@@ -24,7 +24,7 @@ const int g_counts[] = {1, 2, 3, 8};
 class ThreadCount : public testing::TestWithParam<int>
 {
 protected:
-    /// Without oneTBB it is the caller's thread alone.
+    /// Without oneTBB only the calling thread runs.
 #ifdef BULLETFEM_WITH_TBB
     static int expected()
     {
@@ -37,7 +37,7 @@ protected:
     }
 #endif
 
-    /// The threads on which something is true.
+    /// The threads for which a condition is true.
     template <class Condition>
     int countTogether(const Condition& isTrue) const
     {
@@ -82,7 +82,7 @@ TEST_P(ThreadCount, TasksMayHaveTasks)
     EXPECT_EQ(sum, 20 * 44 * 45 / 2);
 }
 
-// More parts at once than there are places where others would find them.
+// More nested task groups than the pool's slots for them.
 TEST_P(ThreadCount, PartsMayLieDeepWithinEachOther)
 {
     std::atomic<int> leaves{0};
@@ -116,7 +116,7 @@ TEST_P(ThreadCount, ThrowingTasksLoseNoOthers)
     }
     EXPECT_EQ(what, "task 3");
     for (const std::atomic<int>& count : done) EXPECT_EQ(count, 1);
-    m_threads.run(50, [&](int k) { ++done[k]; });  // and they go on
+    m_threads.run(50, [&](int k) { ++done[k]; });  // the pool still works
     for (const std::atomic<int>& count : done) EXPECT_EQ(count, 2);
 }
 
@@ -142,7 +142,7 @@ TEST_P(ThreadCount, SeveralThreadsMayShareThem)
     EXPECT_EQ(sum, 3 * 50 * 45);
 }
 
-// As many tasks as threads, of which each waits for all others.
+// As many tasks as threads, each of which waits for all others.
 TEST_P(ThreadCount, TheyWorkAtTheSameTime)
 {
     EXPECT_EQ(countTogether([] { return true; }), expected());
@@ -151,7 +151,7 @@ TEST_P(ThreadCount, TheyWorkAtTheSameTime)
 TEST_P(ThreadCount, TasksInheritTheRoundingMode)
 {
     const auto roundsUp = [] { return std::fegetround() == FE_UPWARD; };
-    EXPECT_EQ(countTogether(roundsUp), 0);  // all have come before the caller changes its mind
+    EXPECT_EQ(countTogether(roundsUp), 0);  // all tasks have started before the caller changes it
     const int before = std::fegetround();
     ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
     const int upward = countTogether(roundsUp);
@@ -170,7 +170,7 @@ TEST(Threads, RejectInvalidCounts)
     EXPECT_EQ(Threads().count(), 1);
 }
 
-/// A body of 10,240 tetrahedra, bent and twisted; where it is free, they share their volume changes.
+/// A body of 10,240 tetrahedra, bent and twisted; at a free body elements are in patches.
 struct SharedCase
 {
     const char* m_name;
@@ -194,7 +194,7 @@ protected:
         return models[clamped];
     }
 
-    /// Ten steps, with impulses and a push.
+    /// Ten steps with impulses and a position correction.
     static BodyState run(const Threads* threads)
     {
         Body body(model(GetParam().m_clamped));

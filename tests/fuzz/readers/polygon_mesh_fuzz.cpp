@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Any bytes are an error that says something, or polygons, whose indices the caller checks.
+// Any bytes give an error with a message, or polygons, whose indices the caller checks.
 #include <cstdlib>
 #include <stdexcept>
 

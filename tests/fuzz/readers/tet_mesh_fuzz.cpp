@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Any bytes are an error that says something, or a mesh that TetMesh takes or refuses.
+// Any bytes give an error with a message, or a mesh that TetMesh accepts or rejects.
 #include <cstdlib>
 #include <stdexcept>
 

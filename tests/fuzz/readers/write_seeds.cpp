@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Writes the files that the fuzzers begin with: a folder a reader, a file a fixture.
+// Writes the fuzzers' seed files: a folder per reader, a file per fixture.
 #include <filesystem>
 #include <fstream>
 

@@ -13,7 +13,7 @@ namespace bullet_fem
 namespace
 {
 
-// In each class of Bullet's worlds.
+// Runs in each class of Bullet's worlds.
 TEST_P(EachWorld, InflatesABody)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
@@ -25,7 +25,7 @@ TEST_P(EachWorld, InflatesABody)
     world.step(120);
     btAlignedObjectArray<btFemActuatorReport> all;
     ASSERT_TRUE(world.fem().getActuators(&body, all));
-    // Of a round cavity in an endless body: 3 p / (4 mu).
+    // Volume strain of a spherical cavity in an infinite body: 3 p / (4 mu).
     const double expected = 3 * 20000 / (4 * 3e5 / (2 * 1.3));
     EXPECT_NEAR(all[0].m_volume / 1e-3 - 1, expected, 0.1 * expected);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Chambers, cables, fibres and expansions of bodies in Bullet's worlds: how they are added, changed, told and kept.
+// Chambers, cables, fibres and expansions of bodies in Bullet's worlds: adding, changing, reading and saving them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ protected:
         return {};
     }
 
-    // The body sleeps; `change` wakes it in the next step.
+    // The sleeping body is woken by `change` in the next step.
     template <class Change>
     void expectWakes(btSoftBody& body, const Change& change)
     {
@@ -103,7 +103,7 @@ TEST_F(ActuatorsOfABody, AreToldAsTheyAre)
     EXPECT_NEAR(lowestHeight(body), 0, 1e-3);
 }
 
-// What it was pumped up to is kept as it is squeezed or let go.
+// A sealed chamber keeps its amount of gas while the body is deformed.
 TEST_F(ActuatorsOfABody, KeepTheirGasWhenTheyAreSealed)
 {
     btSoftBody& body = addHollowCube(m_world, m_fem, {0, 0, btScalar(0.001)});
@@ -118,7 +118,7 @@ TEST_F(ActuatorsOfABody, KeepTheirGasWhenTheyAreSealed)
     EXPECT_NEAR(report(body, handle).m_pressure, 20000, 5);
     m_world.step(120);
     EXPECT_NEAR(report(body, handle).m_volume / open.m_volume, 1, 2e-3);
-    // Half of the gas: what remains is below the pressure outside.
+    // Half of the gas: the pressure is below that outside.
     const double gas = (20000 + 101325.0) * double(open.m_volume);
     m_fem.setChamberGas(&body, handle, btScalar(0.5 * gas));
     m_world.step(120);
@@ -154,13 +154,13 @@ TEST_F(ActuatorsOfABody, WakeItWhenTheyChange)
     expectWakes(body, [&] { m_fem.setActivation(&body, fibres, 2000); });
     for (const int handle : {chamber, cable, elastic, fibres})
         expectWakes(body, [&] { m_fem.removeActuator(&body, handle); });
-    // No change is none.
+    // An equal value is no change.
     sleepAll(body);
     m_world.step(1);
     EXPECT_EQ(body.getActivationState(), ISLAND_SLEEPING);
 }
 
-// In free fall it keeps its shape, however it is moved by hand.
+// A body in free fall keeps its shape when it is moved by hand.
 TEST_F(ActuatorsOfABody, GoWithItWhenItIsMoved)
 {
     btSoftBody& body = addHollowCube(m_world, m_fem, {0, 0, 20});
@@ -178,7 +178,7 @@ TEST_F(ActuatorsOfABody, GoWithItWhenItIsMoved)
     EXPECT_LT(fastestNode(body), 9.81 * 80 / 60 * 1.05);
 }
 
-// 3 % larger, of whatever material.
+// 3 % larger, for any material.
 TEST_F(ActuatorsOfABody, KeepTheirStrainWithAnotherMaterial)
 {
     btSoftBody& body = addCube();
@@ -198,7 +198,7 @@ TEST_F(ActuatorsOfABody, KeepTheirStrainWithAnotherMaterial)
     EXPECT_NEAR(edge(), 0.4 * 1.03, 1e-4);
 }
 
-// With the initial stress that the user has given besides.
+// Adds to the initial stress set by the user.
 TEST_F(ActuatorsOfABody, AddToTheInitialStress)
 {
     btSoftBody& body = addCube();
@@ -305,7 +305,7 @@ TEST_F(ActuatorsOfABody, OutOfRangeAreRefused)
     EXPECT_TRUE(allFinite(body));
 }
 
-// One iteration would not do for it.
+// One iteration would not converge for such a body.
 TEST_F(ActuatorsOfABody, AreIteratedToTheToleranceInAnyDetail)
 {
     btSoftBody& body = addHollowCube(m_world, m_fem, {0, 0, 20});
@@ -321,7 +321,7 @@ TEST_F(ActuatorsOfABody, AreIteratedToTheToleranceInAnyDetail)
     EXPECT_EQ(m_fem.stepReport(&body).m_detail, btFemDetail::direct);
 }
 
-// Taking a tetrahedron away makes the body anew, without what drove it.
+// Removing a tetrahedron recreates the body without actuators.
 TEST_F(ActuatorsOfABody, AreLostWhenTheMeshChanges)
 {
     btSoftBody& body = addHollowCube(m_world, m_fem, {0, 0, btScalar(0.001)});

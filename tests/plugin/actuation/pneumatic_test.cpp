@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Inflated bodies that touch rigid ones, in Bullet's worlds.
+// Inflated bodies in contact with rigid ones, in Bullet's worlds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ double volumeOf(const btSoftBody& body, const btFemChamber& chamber)
     return sum;
 }
 
-// sigma : epsilon / 2, by Hooke's law, over the elements.
+// sigma : epsilon / 2 by Hooke's law, summed over the elements.
 double elasticEnergy(const btSoftBody& body, const btFemSoftBodySolver& fem, const TetMesh& mesh, double young)
 {
     btAlignedObjectArray<btFemStress> stress;
@@ -46,8 +46,8 @@ double elasticEnergy(const btSoftBody& body, const btFemSoftBodySolver& fem, con
     return energy;
 }
 
-// A ball with a sealed gas, squeezed by plates as slowly as a quarter of its height a second, without friction:
-// the plates' work is in its walls and in its gas, whose energy at one temperature is p0 V - gas ln V.
+// A ball with a sealed gas, compressed by frictionless plates at a quarter of its height per second: the plates' work
+// equals the energy of the walls and of the gas, whose isothermal energy is p0 V - gas ln V.
 TEST_P(Pneumatics, ASqueezedBallKeepsItsGasAndItsEnergy)
 {
     btFemSoftBodySolver fem;
@@ -101,7 +101,7 @@ TEST_P(Pneumatics, ASqueezedBallKeepsItsGasAndItsEnergy)
         const double V = volumeOf(*ball, chamber);
         EXPECT_NEAR((double(report[0].m_pressure) + p0) * V, gas, 1e-3 * gas) << k;
     }
-    EXPECT_LE(norm(impulseOn(fem, *ball)), 0.02 * force * kStep);  // the plates press alike
+    EXPECT_LE(norm(impulseOn(fem, *ball)), 0.02 * force * kStep);  // the plates press equally
     const double V = volumeOf(*ball, chamber);
     EXPECT_LT(V, 0.9 * V0);
     const double gasWork = gasEnergy(V) - gasEnergy(V0);
@@ -110,7 +110,7 @@ TEST_P(Pneumatics, ASqueezedBallKeepsItsGasAndItsEnergy)
     EXPECT_NEAR(work, stored, 0.025 * stored);
 }
 
-// Soft walls around a gas that is 500 times stiffer, which contact does not know when it looks for impulses.
+// Soft walls around a gas 500 times stiffer, which the contact solver's compliance does not include.
 TEST_P(Pneumatics, ABallOfAStiffGasFallsAndRests)
 {
     btFemSoftBodySolver fem;
@@ -144,8 +144,8 @@ TEST_P(Pneumatics, ABallOfAStiffGasFallsAndRests)
     EXPECT_GT(lowestHeight(*ball), -1e-3);
 }
 
-// A finger of .025 x .02 x .12 m that hangs from its upper end, with chambers at the side that is away from x = 0: they
-// lengthen that side, and the finger bends to x = 0. `side` is -1 or 1.
+// A finger of .025 x .02 x .12 m that hangs from its upper end. Its chambers are on the side away from x = 0: they
+// lengthen that side, so that the finger bends to x = 0. `side` is -1 or 1.
 TetMesh fingerMesh(int side, double gap)
 {
     const auto isHole = [side, gap](const Vec3& X)
@@ -191,7 +191,7 @@ public:
         hold(0);
     }
 
-    // The upper ends are so far above where they began [m].
+    // Moves the upper ends to this height above their start [m].
     void hold(double height)
     {
         for (Finger& finger : m_fingers)
@@ -210,7 +210,7 @@ public:
                 m_fem.setChamberPressure(finger.m_body, chamber, static_cast<btScalar>(pressure));
     }
 
-    // Distance between the tips' inner sides [m].
+    // Distance of the tips' inner faces [m].
     double opening() const
     {
         btScalar sides[2] = {-1, 1};
@@ -254,7 +254,7 @@ TEST_P(Pneumatics, FingersBendWithPressureAndStraightenWithout)
     EXPECT_NEAR(fingers.opening(), open, 3e-4);
 }
 
-// Two fingers grip a box of 10 g between them, and lift it.
+// Two fingers grip a box of 10 g and lift it.
 TEST_P(Pneumatics, FingersGripAndLiftABox)
 {
     Fingers fingers(GetParam());

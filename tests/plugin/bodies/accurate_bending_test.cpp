@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies that bend accurately in a Bullet world: contact, copies, saved states, baked files.
+// Bodies with accurate bending in a Bullet world: contact, copies, saved states, baked files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ public:
         return m_world.addSoft(body);
     }
 
-    // A plank that falls on a step, and a cube on the plank.
+    // A plank that falls on a ledge, and a cube on the plank.
     void addPile()
     {
         m_world.addFloorBox();
@@ -84,7 +84,7 @@ public:
     SoftWorld m_world;
 };
 
-// Under its own weight, w = rho g A L^4 / (8 E I) + rho g L^2 / (2 kappa G), as long as that is small.
+// A beam's sag under its own weight, w = rho g A L^4 / (8 E I) + rho g L^2 / (2 kappa G), at small deflections.
 TEST(AccurateBendingBodies, SagAsBeamsDo)
 {
     BendingScene scene;
@@ -108,7 +108,7 @@ TEST(AccurateBendingBodies, SagAsBeamsDo)
     EXPECT_NEAR(tip / count, exact, .03 * exact);
 }
 
-// The weight to 1e-5, without creeping and without sinking in.
+// The contact force is the weight to 1e-5, without creep and without penetration.
 TEST(AccurateBendingBodies, RestOnTheFloor)
 {
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
@@ -131,7 +131,7 @@ TEST(AccurateBendingBodies, RestOnTheFloor)
         }
 }
 
-// Coulomb: it sticks below tan^-1 mu, and slides above with g (sin - mu cos).
+// Coulomb's law: the body sticks below tan^-1 mu, and above it slides with g (sin - mu cos).
 TEST(AccurateBendingBodies, SlideAsCoulombSays)
 {
     for (const double angle : {25., 28.})
@@ -175,7 +175,7 @@ TEST(AccurateBendingBodies, HaveTheSameBitsOnAnyThreads)
     }
 }
 
-// They are solved one by one, though others of one model are not.
+// Such bodies are solved one by one, unlike other copies of one model.
 TEST(AccurateBendingBodies, HaveTheSameBitsBesideCopies)
 {
     std::vector<btScalar> bits;
@@ -214,7 +214,7 @@ TEST(AccurateBendingBodies, GoOnToTheBitAfterASnapshot)
     ASSERT_TRUE(scene.m_fem.restoreState(state.data(), state.size()));
     EXPECT_TRUE(scene.run(20) == bits);
 
-    // Another body gets the same material from a definition; without it states are refused.
+    // A definition gives another body the material; without it the state is refused.
     btSoftBody* plank = scene.m_world.softBodies()[0];
     ASSERT_TRUE(scene.m_fem.saveDefinition(plank, definition));
     scene.m_fem.setMaterial(plank, bendingMaterial(btScalar(3e6), btScalar(.45), false));

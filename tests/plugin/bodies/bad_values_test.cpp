@@ -20,7 +20,7 @@ namespace
 const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
 const btScalar kInfinity = std::numeric_limits<btScalar>::infinity();
 
-/// A cube that has fallen on a plane, to which a bad value is then written.
+/// A cube at rest on a plane, to which the test then writes a bad value.
 class Scene
 {
 public:
@@ -57,7 +57,7 @@ TEST_P(BadNodeValue, IsPutBackFlaggedAndDoesNotSpread)
     bad.m_world.step();
     EXPECT_TRUE(bad.flags() & value().m_flag);
     EXPECT_TRUE(allFinite(*bad.m_cube));
-    EXPECT_EQ(bitsOf(*bad.m_cube), bitsOf(*good.m_cube));  // as if nothing had been written
+    EXPECT_EQ(bitsOf(*bad.m_cube), bitsOf(*good.m_cube));  // bitwise equal to a cube without the write
     EXPECT_EQ(bad.m_cube->m_nodes[30].m_im, good.m_cube->m_nodes[30].m_im);
     good.m_world.step(60);
     bad.m_world.step(60);
@@ -124,7 +124,7 @@ TEST_P(BadValues, InfiniteMassesAreReplacedByVolumeShares)
     btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made =
         btFemHelpers::createBox(world.info(), btVector3(0, 0, 0), btVector3(0.5, 0.5, 0.5), btScalar(0.25));
-    made->setTotalMass(50, true);  // by face area: nodes inside get no mass, and an infinite inverse
+    made->setTotalMass(50, true);  // by face area: inner nodes get no mass, and an infinite inverse mass
     btSoftBody& cube = world.addSoft(made);
     world.step();
     EXPECT_TRUE(fem.stepReport(&cube).m_flags & BT_FEM_BAD_MASS);
@@ -158,7 +158,7 @@ TEST_P(BadSteps, AreNotThoseAtTheBounds)
     }
 }
 
-// The nearest float to 1e-6 is below it.
+// The float nearest to 1e-6 is below it.
 TEST_P(BadSteps, LimitingStepsPrepareAndMoveABody)
 {
     for (const btScalar allowed : {btScalar(1e-6), btScalar(1)})

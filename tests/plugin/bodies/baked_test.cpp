@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Factors of bodies that were baked are used as they are.
+// Factors of baked bodies are used without factoring again.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -27,7 +27,7 @@ protected:
         m_settings.m_step = static_cast<double>(kStep);
     }
 
-    /// A box of 0.6 m, a little above the ground and beside the middle of the world.
+    /// A box of 0.6 m, slightly above the ground and off the world's origin.
     static TetMesh box() { return makeBox({0.6, 0.5, 0.4}, {4, 4, 3}, {0.1, -0.7, 0.05}); }
 
     BakedBody bakedBox() const { return throughAFile(bakeBody(box(), m_settings)); }
@@ -71,7 +71,7 @@ TEST_F(BakedBodies, AreUsedInTheOtherPrecision)
     EXPECT_TRUE(allFinite(body));
 }
 
-/// What the body was baked for is not what it gets.
+/// The body is set up differently from the baked one.
 class StaleBakedFactor : public BakedBodies
 {
 protected:
@@ -165,7 +165,7 @@ TEST_F(StaleBakedFactor, GivesTheMotionOfAFreshOne)
     plainWorld.step(60);
     EXPECT_TRUE(fem.stepReport(a).m_bakedFactor);
     EXPECT_FALSE(plainFem.stepReport(b).m_bakedFactor);
-    // Sixty steps that differ by a share of 1e-6 of what moves, and single precision.
+    // Sixty steps with relative differences of 1e-6, and single precision.
     EXPECT_LT(largestDifference(edgesOf(*a), edgesOf(*b)), 1e-4 * largestDifference(edgesOf(*b), before));
 }
 

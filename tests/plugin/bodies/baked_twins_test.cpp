@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies that were baked have the bits of those that were not (docs/baked.md, The same motion).
+// Baked bodies are bitwise equal to bodies that are not baked (docs/baked.md, Promises, Same motion).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -28,7 +28,7 @@ enum class TwinMesh
     cage
 };
 
-/// Two worlds with a ground that differ in that the soft bodies of one were baked.
+/// Two worlds with a ground; the soft bodies of one of them were baked.
 class BakedTwins : public testing::TestWithParam<std::tuple<Coupling, TwinMesh>>
 {
 protected:
@@ -42,8 +42,7 @@ protected:
         for (FemWorld* world : {&m_bakedWorld, &m_plainWorld}) world->addPlane();
     }
 
-    /// Above the ground by `height` [m] and beside the middle of the world; `change` is applied to both before they are
-    /// added.
+    /// Adds a body at `height` [m] off the world's origin to both worlds, after `change` is applied to it.
     void add(double height, const Change& change = {})
     {
         btSoftBody *baked = nullptr, *plain = nullptr;

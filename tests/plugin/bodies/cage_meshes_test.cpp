@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Scans and models as they come: every mesh of a folder is made a body with one call, and dropped.
+//
+// Scanned and modelled surfaces: each mesh of a folder is made into a body by one call, and dropped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ constexpr std::size_t kMaxTriangles = 100000;
 constexpr double kDensity = 1000;    // [kg/m3]
 constexpr double kDropHeight = 0.1;  // [m]; bodies are 1 m long
 constexpr int kSteps = 120;          // two seconds
-constexpr int kEvery = 12;           // of so many two are graded
+constexpr int kEvery = 12;           // one in six is graded
 
 struct NamedSurface
 {
@@ -40,7 +41,7 @@ fs::path meshFolder()
     return chosen ? chosen : BULLETFEM_TEST_MESHES;
 }
 
-/// Scaled to a length of 1 m.
+/// Reads a surface, scaled to a length of 1 m.
 SurfaceMesh readScaled(const fs::path& file)
 {
     SurfaceMesh surface = readSurfaceFile(file.string());
@@ -113,7 +114,7 @@ double volumeOf(const btSoftBody::Tetra& tet)
     return a.cross(b).dot(c) / 6;
 }
 
-/// The least volume of an element over its volume at rest.
+/// Minimum of element volume over rest volume.
 double minVolumeRatio(const btSoftBody& body, const std::vector<double>& atRest)
 {
     double least = 1;
@@ -124,7 +125,7 @@ double minVolumeRatio(const btSoftBody& body, const std::vector<double>& atRest)
 class CageMeshes : public testing::Test
 {
 protected:
-    /// Makes one a body, drops it, and writes a line of the table.
+    /// Makes a body of one surface, drops it, and writes a line of the table.
     void tryOne(const NamedSurface& given)
     {
         SCOPED_TRACE(given.m_name);
@@ -137,7 +138,7 @@ protected:
         settings.m_targetTets = kTargetTets;
         settings.m_snap = m_snap;
         settings.m_cellsAcross = m_cellsAcross;
-        settings.m_fillSamples = 32;  // half the usual, for time
+        settings.m_fillSamples = 32;  // half the default, for speed
         std::unique_ptr<btSoftBody> body(
             btFemHelpers::createFromSurface(world.info(), given.m_surface, settings, report, &why));
         if (!body)
@@ -165,8 +166,9 @@ protected:
         write(given, report, text);
     }
 
-    /// By the divergence theorem where that holds. Else by that of a surface that was mended, which the report has, or
-    /// of closed ones that overlap themselves by the samples of a finer cage; holes have no true volume.
+    /// The true volume by the divergence theorem if that holds; otherwise that of the repaired surface in the report,
+    /// or for closed surfaces that overlap themselves by the samples of a finer cage. Surfaces with holes have no true
+    /// volume.
     static double trueVolume(const SurfaceMesh& surface, const CageReport& report)
     {
         const bool overlaps = report.m_selfIntersecting && report.m_openEdges == 0;
@@ -176,7 +178,7 @@ protected:
         return makeCage(surface, finer).m_report.m_surfaceVolume;
     }
 
-    /// Returns the least volume ratio after two seconds.
+    /// Returns the minimum volume ratio after two seconds.
     static double drop(SoftWorld& world, btSoftBody& body)
     {
         std::vector<double> atRest;
@@ -218,8 +220,8 @@ TEST_F(CageMeshes, BecomeBodies)
     int count = 0;
     for (const NamedSurface& surface : readMeshes())
     {
-        m_snap = 1 - m_snap;                                  // every other one
-        m_cellsAcross = count++ % kEvery / 2 == 3 ? 1.5 : 0;  // one of them snapped
+        m_snap = 1 - m_snap;                                  // alternately
+        m_cellsAcross = count++ % kEvery / 2 == 3 ? 1.5 : 0;  // one of the two is snapped
         tryOne(surface);
     }
     std::printf("%d closed, %d open, %d refused\n", m_closed, m_open, m_refused);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Every flag of the reports has words.
+//
+// Each report flag has a text.
 #include "bullet_fem/btFemFlagText.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ TEST(FlagText, IsThereForEveryFlagOfTheHeader)
         explanations.insert(explanation);
     }
     EXPECT_GE(count, 27);
-    EXPECT_EQ(titles.size(), std::size_t(count)) << "they tell flags apart";
+    EXPECT_EQ(titles.size(), std::size_t(count)) << "titles are distinct";
     EXPECT_EQ(explanations.size(), std::size_t(count));
 }
 

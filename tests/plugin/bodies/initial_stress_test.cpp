@@ -45,7 +45,7 @@ protected:
     InitialStressOfABody() { addGround(); }
 };
 
-// 5 % in length, by the formula: its weight, 400 N/m2, makes some 4e-4 of that.
+// 5 % in length by the formula; its weight, 400 N/m2, changes that by 4e-4.
 TEST_F(InitialStressOfABody, WakesItAndMakesItGrow)
 {
     btSoftBody& cube = addCube();
@@ -56,7 +56,7 @@ TEST_F(InitialStressOfABody, WakesItAndMakesItGrow)
     EXPECT_NE(cube.getActivationState(), ISLAND_SLEEPING);
     sleepAll(cube);
     EXPECT_NEAR(edgeOf(cube) / before, 1.05, 1e-3);
-    // The same again is no change, and it sleeps on.
+    // Setting equal stresses is no change, and the body stays asleep.
     m_fem.setInitialStress(&cube, sameInAll(cube, heatStress(0.05)));
     m_world.step(1);
     EXPECT_EQ(cube.getActivationState(), ISLAND_SLEEPING);
@@ -67,7 +67,7 @@ TEST_F(InitialStressOfABody, WakesItAndMakesItGrow)
     EXPECT_NEAR(edgeOf(cube) / before, 1, 1e-3);
 }
 
-// Held all round it has the stress and does not move.
+// With all nodes held the body has the stress and does not move.
 TEST_F(InitialStressOfABody, IsIncludedInTheReadStress)
 {
     btSoftBody& cube = addCube(0, 3);
@@ -89,7 +89,7 @@ TEST_F(InitialStressOfABody, IsIncludedInTheReadStress)
     }
 }
 
-// A body of twice the size has the same stresses, and so the same strains.
+// A body of twice the size has equal stresses, and so equal strains.
 TEST_F(InitialStressOfABody, IsKeptWhenTheBodyIsScaledAndMoved)
 {
     btSoftBody& cube = addCube();

@@ -65,8 +65,8 @@ TEST_P(Lifecycle, BodiesComeAndGoAtAnyTime)
     EXPECT_TRUE(allFinite(second));
 }
 
-// A body with the elements of `pattern`, its positions times `stretch`, in one of two places of our own: addresses are
-// the same for certain.
+// Makes a body with the elements of `pattern` and its positions times `stretch` in one of two fixed buffers, so that
+// addresses are reused for certain.
 btSoftBody* makeInPlace(SoftWorld& world, const btSoftBody& pattern, btScalar stretch, int place = 0)
 {
     alignas(btSoftBody) static unsigned char places[2][sizeof(btSoftBody)];
@@ -103,7 +103,7 @@ TEST_P(Lifecycle, BodyAtAReusedAddressIsRecognizedAsNew)
         stepAndRemoveAtRest(world, fem, makeInPlace(world, *pattern, stretch));
 }
 
-// The order of bodies decides about rounding.
+// The order of bodies affects rounding.
 TEST_P(Lifecycle, BodyAtAReusedAddressComesLast)
 {
     std::vector<btScalar> bits[2];
@@ -150,7 +150,7 @@ TEST_P(Lifecycle, ReusedAddressHasNoStaleReports)
     late->~btSoftBody();
 }
 
-// The next world gives out the same broadphase ids, and may itself be at the address of the last.
+// The next world reuses broadphase ids, and possibly the address of the last world.
 TEST_P(LifecycleOfWorlds, BodyAtAReusedAddressInTheNextWorldIsNew)
 {
     btFemSoftBodySolver fem;
@@ -191,7 +191,7 @@ TEST_P(Lifecycle, ABodyAddedTwiceIsSteppedOnceAndFlagged)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
-// Proxies of a body in a broad phase.
+// Counts a body's proxies in a broad phase.
 struct ProxyCount : btBroadphaseAabbCallback
 {
     explicit ProxyCount(const btSoftBody& body) : m_body(body) {}
@@ -212,7 +212,8 @@ int proxiesOf(SoftWorld& world, const btSoftBody& body)
     return count.m_count;
 }
 
-// Bullet gives such a body a second proxy; when the body is removed once it has none, and stays in the world.
+// Bullet gives a body that is added twice two proxies; after one removal it is still in the world, without any, and the
+// solver adds one.
 TEST_P(Lifecycle, ABodyAddedTwiceAndRemovedOnceStays)
 {
     for (const int stepsBetween : {0, 1, 5})
@@ -227,7 +228,7 @@ TEST_P(Lifecycle, ABodyAddedTwiceAndRemovedOnceStays)
         EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0);
         EXPECT_EQ(proxiesOf(world, cube), 1) << stepsBetween;
         const double weight = massOf(cube) * kGravity;
-        // In a deformable world a force belongs to bodies that were added, and goes with them.
+        // In a deformable world forces apply to added bodies, and are removed with them.
         if (GetParam() != WorldClass::deformable)
         {
             EXPECT_NEAR(impulseOn(world.fem(), cube).z / kStep, weight, 0.01 * weight);
@@ -264,7 +265,7 @@ TEST_P(LifecycleOfWorlds, ABodyInWorldsOfTwoSolversIsSteppedByOne)
     SoftWorld first(GetParam(), firstFem), second(GetParam(), secondFem);
     btSoftBody& cube = first.addSoft(makeCube(first));
     first.step(2);
-    second.softBodies().push_back(&cube);  // the body still says that the first solver is its own
+    second.softBodies().push_back(&cube);  // the body still refers to the first solver
     for (int k = 0; k < 10; ++k)
     {
         first.step();
@@ -308,7 +309,7 @@ TEST_P(LifecycleOfWorlds, TwoWorldsMayTakeTurnsWithOneSolver)
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 30 * kStep, 1e-4);
 }
 
-/// What a tick callback shall delete: between collision detection and our solve.
+/// The object that a tick callback deletes, between collision detection and the FEM solve.
 struct Deletion
 {
     SoftWorld* m_world;
@@ -364,9 +365,9 @@ TEST_P(Lifecycle, KeysNeverAddedAreForgotten)
     EXPECT_FALSE(fem.isFem(never.get()));
 }
 
-// A FEM body whose elements a program breaks is Bullet's again, with Bullet's own contacts, from the next step on.
-// Asked for or not, its constants are updated without the tree of nodes that Bullet never finishes for a body without
-// links.
+// A FEM body whose elements a program breaks is handed back to Bullet, with Bullet's contacts, from the next step on.
+// With and without the body's update flag its constants are updated without Bullet's node tree, which never terminates
+// for a body without links.
 class BrokenBody : public EachWorldWith<bool>
 {
 };
@@ -412,7 +413,7 @@ INSTANTIATE_TEST_SUITE_P(Lifecycle, BrokenBody,
                                           testing::Bool()),
                          nameOfWorldWith([](bool asked) { return asked ? "constantsAsked" : "constantsLeft"; }));
 
-// In a deformable world Bullet has nothing to move bodies without links by.
+// Bullet's deformable world does not move bodies without links.
 TEST(BrokenBodyInADeformableWorld, StandsStillAndSaysWhyUntilItIsMended)
 {
     FemWorld world(WorldClass::deformable);
@@ -422,7 +423,7 @@ TEST(BrokenBodyInADeformableWorld, StandsStillAndSaysWhyUntilItIsMended)
     btSoftBody::Node*& corner = body.m_tetras[0].m_n[1];
     btSoftBody::Node* const whole = corner;
     corner = body.m_tetras[0].m_n[0];
-    world.step(8);  // all elements have been looked at
+    world.step(8);  // all elements have been checked
     const std::vector<btScalar> before = bitsOf(body);
     world.step(5);
     EXPECT_FALSE(fem.isFem(&body));

@@ -42,7 +42,7 @@ TEST_P(Loads, AForceOfTheUserAcceleratesByForceOverMass)
     {
         cube.m_nodes[0].m_f += btVector3(0, btScalar(3 * mass), 0);  // on a corner
         world.step();
-        EXPECT_EQ(cube.m_nodes[0].m_f, btVector3(0, 0, 0));  // it acts in one step
+        EXPECT_EQ(cube.m_nodes[0].m_f, btVector3(0, 0, 0));  // it acts for one step
         EXPECT_NEAR(velocityOf(cube).y, 3 * (k + 1) * double(kStep), 1e-6 * 3);
     }
     cube.addForce(btVector3(btScalar(2 * mass), 0, 0));
@@ -51,7 +51,7 @@ TEST_P(Loads, AForceOfTheUserAcceleratesByForceOverMass)
     EXPECT_GT(velocityOf(cube).x - before, 1e-3);
 }
 
-// In a deformable world it is that of its forces.
+// In a deformable world the gravity is that of its forces.
 class LoadsOfTheWorldInfo : public EachWorld
 {
 };
@@ -83,7 +83,7 @@ TEST_P(Loads, WindPushesAndDragFollowsBulletsCoefficient)
         cube.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
         cube.m_cfg.kDG = btScalar(k == 0 ? 0.05 : 0.1);
         cube.setWindVelocity(btVector3(20, 0, 0));
-        cube.setVelocity(btVector3(0, 1, 0));  // Bullet clamps wind on a node to what would stop it
+        cube.setVelocity(btVector3(0, 1, 0));  // Bullet limits wind on a node to the impulse that stops it
         world.step(10);
         speed[k] = velocityOf(cube).x;
     }
@@ -95,7 +95,7 @@ TEST_P(Loads, BulletsDampingSlowsAFlyingBodyAsItDoesBulletsBodies)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btSoftBody& cube = addCube(world);
-    (GetParam() == WorldClass::deformable ? cube.m_cfg.drag : cube.m_cfg.kDP) = btScalar(0.02);  // as Bullet's have it
+    (GetParam() == WorldClass::deformable ? cube.m_cfg.drag : cube.m_cfg.kDP) = btScalar(0.02);  // as Bullet's bodies
     cube.setVelocity(btVector3(1, 0, 0));
     world.step(50);
     EXPECT_NEAR(velocityOf(cube).x, std::pow(0.98, 50), 1e-4);
@@ -126,7 +126,7 @@ TEST_P(Loads, TranslateInMidRunTeleportsWithoutDeforming)
         FemWorld world(GetParam());
         btFemSoftBodySolver& fem = world.fem();
         btSoftBody& cube = addCube(world);
-        cube.setMass(0, 0);  // a pin goes along
+        cube.setMass(0, 0);  // pins follow
         world.step(30);
         if (k == 1) cube.translate(btVector3(10, 20, 5));
         world.step(5);
@@ -170,7 +170,7 @@ TEST_P(Steps, TimescaleIsAFactorOnTheStepOfABody)
     btSoftBody& cube = addCube(world);
     cube.m_cfg.timescale = btScalar(0.5);
     world.step(1);
-    EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0);  // factored for the step that it makes
+    EXPECT_EQ(world.fem().stepReport(&cube).m_flags, 0);  // factored for this step
     world.step(59);
     const double h = 0.5 * kStep;
     EXPECT_NEAR(velocityOf(cube).z, -kGravity * 60 * h, 1e-4);
@@ -194,7 +194,7 @@ TEST_P(Steps, ChangedStepIsFlaggedAsStaleUntilRefactored)
     EXPECT_TRUE(allFinite(cube));
 }
 
-// A body that touches something is given the factor of its step when the step is far off.
+// A body in contact is refactored at once if the step differs much from the factor's.
 TEST_P(Steps, RecurringStepsInContactAreRefactored)
 {
     FemWorld world(GetParam());
@@ -212,7 +212,7 @@ TEST_P(Steps, RecurringStepsInContactAreRefactored)
     EXPECT_TRUE(allFinite(cube));
 }
 
-// --- What can be asked without exceptions ---
+// --- Queries without exceptions ---
 
 TEST(Valid, ReportsTheErrorsOfSetMaterial)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 
-// Bullet's own readers read the files that BulletFEM::io writes.
+// Bullet's readers accept the files that BulletFEM::io writes.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Nodes and tetrahedra must be those of the mesh, in its order.
+/// Nodes and tetrahedra equal those of the mesh, in its order.
 void expectMesh(const btSoftBody& body, const TetMesh& mesh)
 {
     ASSERT_EQ(body.m_nodes.size(), mesh.nodeCount());

@@ -20,7 +20,7 @@ namespace
 
 using testing::Test;
 
-/// Tetrahedra as a Bullet program makes them, unchecked.
+/// Tetrahedra appended as by a Bullet program, without checks.
 btSoftBody* makeByHand(SoftWorld& world, const std::vector<btVector3>& x, const std::vector<std::array<int, 4>>& tets)
 {
     auto* body = new btSoftBody(&world.info(), int(x.size()), x.data(), nullptr);
@@ -28,7 +28,7 @@ btSoftBody* makeByHand(SoftWorld& world, const std::vector<btVector3>& x, const 
     return body;
 }
 
-constexpr int kStepsToLook = 32;  // in which all elements are looked at, as BT_FEM_INSIDE_OUT says
+constexpr int kStepsToLook = 32;  // all elements are checked within these steps, as BT_FEM_INSIDE_OUT documents
 
 const std::vector<btVector3> kCorners = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 2}};
 
@@ -168,8 +168,8 @@ TEST_P(Meshes, UnconnectedComponentsMoveOnTheirOwn)
     for (int i = 0; i < 8; ++i) EXPECT_NEAR(body.m_nodes[i].m_x.y() - x[i].y(), i < 4 ? 1 : -2, 1e-4) << i;
 }
 
-// Own weight shortens a cube by rho g L^2 / (2 E); so the same from kLST as from a material, and ten times less when it
-// is ten times stiffer.
+// Own weight shortens a cube by rho g L^2 / (2 E): equal for E by kLST and by a material, and a tenth for ten times the
+// E.
 double sagOf(WorldClass worldClass, btScalar kLST, const btFemMaterial* material)
 {
     FemWorld world(worldClass);
@@ -198,7 +198,7 @@ TEST_P(DefaultMaterial, IsAMegapascalTimesBulletsStiffness)
         EXPECT_NEAR(sag, sagOf(GetParam(), 1, &material), 1e-3 * sag);
     }
     EXPECT_NEAR(sagOf(GetParam(), btScalar(0.5), nullptr) / sagOf(GetParam(), 1, nullptr), 2,
-                0.05);  // but for what is not linear in it
+                0.05);  // nonlinear terms
 }
 
 TEST_P(DefaultMaterial, KeepsTheBodysOwnMasses)
@@ -227,7 +227,7 @@ TEST_P(ChangedMaterial, ChangesOfItTakeEffectInTheNextStep)
     cube.m_nodes[0].m_f = btVector3(40, 0, 0);
     world.step();
     EXPECT_NEAR(velocityOf(cube).x, 1 * kStep, 1e-6);
-    EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);  // factored anew
+    EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);  // factored again
 }
 
 TEST_P(Detail, EveryOneCarriesTheWeightAndKeepsMomentum)

@@ -32,7 +32,7 @@ class NeoHookeInWorlds : public testing::TestWithParam<Coupling>
 {
 };
 
-// Between a plate that comes down to a tenth of the cube's height, stays and goes up again, and the floor.
+// A plate compresses the cube on the floor to a tenth of its height, stays, and moves up again.
 TEST_P(NeoHookeInWorlds, ACrushedCubeComesBack)
 {
     FemWorld world(WorldClass::softRigid, GetParam());
@@ -49,7 +49,7 @@ TEST_P(NeoHookeInWorlds, ACrushedCubeComesBack)
     world.step(60);
     const std::vector<Vec3> rest = edgesOf(cube);
     double lowest = 1, most = 0;
-    for (int k = 1; k <= 600; ++k)  // two seconds down, one there, two up, and five to come to rest
+    for (int k = 1; k <= 600; ++k)  // two seconds down, one at rest, two up, and five to settle
     {
         const double way = std::clamp(std::min(k / 120.0, (300 - k) / 120.0), 0.0, 1.0);
         const double height = kEdgeOfCrushed + (kTenth - kEdgeOfCrushed) * way;
@@ -62,13 +62,13 @@ TEST_P(NeoHookeInWorlds, ACrushedCubeComesBack)
         most = std::max(most, fastestNode(cube));
     }
     EXPECT_LT(lowest, 1.2 * kTenth);
-    EXPECT_LT(most, 5);  // the plate has .23 m/s
+    EXPECT_LT(most, 5);  // the plate moves at .23 m/s
     EXPECT_LT(fastestNode(cube), 0.01);
     const std::vector<Vec3> after = edgesOf(cube);
     for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_NEAR(norm(after[i]), norm(rest[i]), 0.01 * kEdgeOfCrushed);
 }
 
-// It weighs on the floor what it weighs, and a rigid body on it, too.
+// The cube's contact force on the floor is its weight, plus that of a rigid body on it.
 TEST_P(NeoHookeInWorlds, RestsUnderALoadAndPressesWithIts)
 {
     FemWorld world(WorldClass::softRigid, GetParam());

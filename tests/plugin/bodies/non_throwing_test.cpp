@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What engines without exceptions call: this file is compiled without them.
+// The interface for engines without exceptions: this file is compiled with -fno-exceptions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -32,7 +32,7 @@ const btScalar kNaN = std::numeric_limits<btScalar>::quiet_NaN();
 class NonThrowing : public testing::Test
 {
 protected:
-    /// The call refused, with a reason that contains this.
+    /// Expects that the call fails, with this text in its reason.
     template <class Call>
     void expectRefused(const Call& call, const char* reason)
     {

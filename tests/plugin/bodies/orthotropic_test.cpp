@@ -24,7 +24,7 @@ using testing::HasSubstr;
 constexpr double kStiffAlong = 8e5, kSoftAcross = 5e4;            // [Pa]
 constexpr double kEdgeOfFibrous = 0.5, kDensityOfFibrous = 1000;  // [m], [kg/m3]
 
-// Without Poisson's ratios, so that what stands on a rough floor is a column under its weight.
+// Poisson's ratios are 0, so that a cube on a rough floor is a column under its weight.
 btFemMaterial fibrous(const btVector3& along)
 {
     btFemMaterial material =
@@ -44,7 +44,7 @@ SoftBox fibrousBox(double height)
     return box;
 }
 
-// How far the upper face is below where it would be without weight.
+// Displacement of the upper face by the weight.
 double sagOf(const btSoftBody& cube)
 {
     double top = 0;
@@ -63,7 +63,7 @@ class OrthotropicInWorlds : public testing::TestWithParam<Coupling>
 {
 };
 
-// It falls, weighs on the floor what it weighs, and is pressed as stiff as its fibres, or as what is between them.
+// It falls, its contact force is its weight, and its sag follows the stiffness along the fibres, or across them.
 TEST_P(OrthotropicInWorlds, ADroppedCubeStandsOnItsFibresOrAcrossThem)
 {
     for (const bool stands : {true, false})
@@ -88,7 +88,7 @@ TEST_P(OrthotropicInWorlds, ADroppedCubeStandsOnItsFibresOrAcrossThem)
     }
 }
 
-// The axes are those of the rest shape: a body that is turned after it was prepared takes them along.
+// The material axes belong to the rest shape: rotating a prepared body rotates them.
 TEST_P(OrthotropicInWorlds, FibresTurnWithTheBody)
 {
     FemWorld world(WorldClass::softRigid, GetParam());
@@ -107,7 +107,7 @@ TEST_P(OrthotropicInWorlds, FibresTurnWithTheBody)
 INSTANTIATE_TEST_SUITE_P(Couplings, OrthotropicInWorlds, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& suite) { return std::string(couplingName(suite.param)); });
 
-// Fibres that turn from place to place.
+// Fibres whose direction varies in space.
 btFemMaterial windingMaterial(const btVector3& centroid)
 {
     return fibrous({1, btScalar(2) * centroid.x(), btScalar(0.5) - centroid.y()});
@@ -151,7 +151,7 @@ TEST(OrthotropicBodies, SavedStatesContinueAndAreRefusedByOtherFibres)
     EXPECT_NE(why, "");
 }
 
-// What was saved of a body makes another one move as it does, whatever its law.
+// A definition gives another body the motion of the saved one, for each law.
 TEST(OrthotropicBodies, DefinitionsKeepTheLaw)
 {
     btFemMaterial gel = fibrous({1, 0, 0});
@@ -177,10 +177,10 @@ TEST(OrthotropicBodies, DefinitionsKeepTheLaw)
             scene.m_world.step(30);
             moved[copied] = bitsOf(cube);
         }
-        double farthest = 0;  // masses go through 1 / m and back
+        double farthest = 0;  // masses are stored as 1 / m
         for (std::size_t k = 0; k < moved[0].size(); ++k)
             farthest = std::max(farthest, std::fabs(double(moved[0][k] - moved[1][k])));
-        EXPECT_LT(farthest, 1e-5) << static_cast<int>(material.m_law);  // Hooke's law would be some millimetres off
+        EXPECT_LT(farthest, 1e-5) << static_cast<int>(material.m_law);  // Hooke's law would differ by some millimetres
     }
 }
 

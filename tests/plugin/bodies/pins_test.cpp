@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A beam of 1 x .25 x .25 m along x that hangs by the nodes of its face x = 0, or by none.
+/// A beam of 1 x .25 x .25 m along x, fixed at the nodes of its face x = 0, or free.
 class Beam
 {
 public:
@@ -73,7 +73,7 @@ TEST_P(Pins, HoldNodesOfInverseMassZeroToTheBit)
         EXPECT_EQ(beam.m_body.m_nodes[beam.m_root[k]].m_x, before[k]);
         EXPECT_EQ(beam.m_body.m_nodes[beam.m_root[k]].m_v, btVector3(0, 0, 0));
     }
-    EXPECT_LT(beam.tipHeight(), 0.125 - 0.005);  // and the rest hangs from them
+    EXPECT_LT(beam.tipHeight(), 0.125 - 0.005);  // the free part sags
     EXPECT_EQ(beam.m_fem.stepReport(&beam.m_body).m_flags, 0);
 }
 
@@ -93,7 +93,7 @@ TEST_P(Pins, ArePutInAndTakenOutAtAnyTimeAndTheRestShapeStays)
     const btScalar inverse = beam.m_body.m_nodes[beam.m_body.m_nodes.size() / 2].m_im;
     for (int i : beam.m_root) beam.m_body.m_nodes[i].m_im = inverse;
     beam.m_world.step(300);
-    for (std::size_t i = 0; i < rest.size(); ++i)  // lengths: the body may have turned
+    for (std::size_t i = 0; i < rest.size(); ++i)  // lengths only, since the body may have rotated
         EXPECT_NEAR(norm(edgesOf(beam.m_body)[i]), norm(rest[i]), 1e-3);
 }
 
@@ -113,7 +113,7 @@ TEST_P(Pins, GoWithinTheStepToThePositionWrittenToThem)
     EXPECT_TRUE(beam.rootIsAt(btVector3(0, 0, btScalar(0.3))));
     EXPECT_NEAR(beam.m_body.m_nodes[beam.m_root[0]].m_v.z(), 0, 1e-6);
     beam.m_world.step(300);
-    EXPECT_NEAR(beam.tipHeight() - tip, 0.3, 0.01 * 0.3);  // the rest came along
+    EXPECT_NEAR(beam.tipHeight() - tip, 0.3, 0.01 * 0.3);  // the free part followed
 }
 
 TEST_P(Pins, MoveWithTheVelocityWrittenToThem)

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Cloth, rope, balloon and clusters that fall on rigid bodies and on each other.
+/// Cloth, rope, a balloon and clusters that fall on rigid bodies and on each other.
 std::vector<btSoftBody*> addPlainBodies(SoftWorld& world)
 {
     world.addFloorBox();
@@ -48,7 +48,7 @@ std::vector<btSoftBody*> addPlainBodies(SoftWorld& world)
     return bodies;
 }
 
-// In a deformable world they are its own solver's.
+// In a deformable world its own solver moves them.
 class PlainBodies : public EachWorld
 {
 };
@@ -79,10 +79,10 @@ TEST_P(PlainBodies, MoveBitForBitAsWithBulletsOwnSolverBesideAFemBody)
     }
     EXPECT_TRUE(fem.isFem(&cube));
     EXPECT_GT(fem.contacts(&cube).size(), 0);
-    EXPECT_LT(lowestHeight(*bodies[0]), 0.5);  // they did fall, and did not leave
+    EXPECT_LT(lowestHeight(*bodies[0]), 0.5);  // they fell, and stayed on the ground
 }
 
-// Those with the flag touch FEM bodies: ClothOnFemBodies.
+// Bodies with the flag collide with FEM bodies: see ClothOnFemBodies.
 TEST_P(PlainBodies, LeaveFemBodiesAloneWithoutTheSoftBodyFlag)
 {
     std::vector<btScalar> bits[2];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies that keep their dents, in Bullet's worlds.
+// Plastic and relaxing bodies in Bullet's worlds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ btFemMaterial softClay()
     return clay;
 }
 
-// A panel of 1 x 1 x 0.2 m that lies on the ground, and a ball of 400 kg that falls on its middle from 0.1 m above.
+// A panel of 1 x 1 x 0.2 m on the ground, and a ball of 400 kg that falls on its middle from 0.1 m above.
 class DentedPanel
 {
 public:
@@ -46,7 +46,7 @@ public:
         m_scene.m_world.deleteRigid(*m_ball);
     }
 
-    // How far the middle of the upper face is below the middles of its edges [m], which are half the length away.
+    // Depth of the middle of the upper face below the midpoints of its edges [m], at half the length.
     double dent(double length = 1) const
     {
         const double x = length / 2;
@@ -68,7 +68,7 @@ public:
     btRigidBody* m_ball;
 
 private:
-    // Of the uppermost node near a place.
+    // Height of the uppermost node near a place.
     double height(double x, double y) const
     {
         double highest = -1;
@@ -96,8 +96,8 @@ TEST_P(PlasticityOfABody, APanelStaysDented)
         panel->takeBallAway();
         panel->m_scene.m_world.step(60);
     }
-    // Clay carries some 3 sigma_y under a ball (Tabor 1951), on the area 2 pi R d: d is at least that of the ball's
-    // weight, 14 mm, and at most that which takes up all of its fall, 68 mm.
+    // Clay bears about 3 sigma_y under a ball (Tabor 1951), on the area 2 pi R d: d lies between 14 mm, from the ball's
+    // weight, and 68 mm, from its kinetic energy.
     EXPECT_GT(clay.dent(), 0.014);
     EXPECT_LT(clay.dent(), 0.068);
     EXPECT_GT(clay.largestPlasticStrain(), 0.05);
@@ -108,7 +108,7 @@ TEST_P(PlasticityOfABody, APanelStaysDented)
     EXPECT_NEAR(clay.dent(), dent, 1e-4);
 }
 
-// Neither the weight alone nor a turn makes it yield.
+// Neither its weight nor a rotation causes plastic strain.
 TEST_P(PlasticityOfABody, RestingPanelDoesNotYield)
 {
     DentedPanel clay(GetParam(), softClay());
@@ -117,7 +117,7 @@ TEST_P(PlasticityOfABody, RestingPanelDoesNotYield)
     EXPECT_EQ(clay.largestPlasticStrain(), 0);
 }
 
-// While the ball sinks in: restored, the same bits follow, and the panel is dented as it was.
+// Restored while the ball indents the panel: the run continues bitwise equal, with equal plastic strains.
 TEST_P(PlasticityOfABody, ADentIsRestored)
 {
     DentedPanel clay(GetParam(), softClay());
@@ -137,8 +137,7 @@ TEST_P(PlasticityOfABody, ADentIsRestored)
     EXPECT_EQ(clay.dent(), dent);
 }
 
-// Bullet's scale() makes the shape that it has then the rest shape: a dent of twice the depth is in that, and does not
-// grow by itself.
+// Bullet's scale() makes the present shape the rest shape: the scaled dent is part of it, and does not grow.
 TEST_P(PlasticityOfABody, ADentIsScaled)
 {
     DentedPanel clay(GetParam(), softClay());
@@ -152,7 +151,7 @@ TEST_P(PlasticityOfABody, ADentIsScaled)
     EXPECT_EQ(clay.largestPlasticStrain(), strain);
 }
 
-// Who gets another material, by a new factor, keeps the dent.
+// A new material with a new factor keeps the dent.
 TEST_P(PlasticityOfABody, ADentOutlivesTheMaterial)
 {
     DentedPanel clay(GetParam(), softClay());
@@ -188,7 +187,7 @@ TEST(PlasticityOfBodies, BadMaterialsAreRefused)
     EXPECT_NE(why(&btFemMaterial::m_mostPlasticStrain, 1).find("largest plastic strain [-] is 1"), std::string::npos);
 }
 
-// A body's model has all that its material says; the largest share is no binary number.
+// A body's model has the exact material parameters; the maximum share has no exact binary representation.
 TEST(PlasticityOfBodies, MaterialsComeWhole)
 {
     btFemSoftBodySolver fem;
@@ -221,17 +220,17 @@ TEST(RelaxationOfBodies, BoundsAreTakenInEveryPrecision)
     material.m_relaxation[0].m_time = btScalar(9e-7);
     EXPECT_FALSE(material.valid());
     material.m_relaxation[0] = {btScalar(0.34), 1};
-    EXPECT_FALSE(material.valid()) << "1 in all";
+    EXPECT_FALSE(material.valid()) << "1 in total";
 }
 
-// A cube that rests on the ground sinks as its modulus goes: half of it gone, twice as far.
+// A cube at rest on the ground sags more as its modulus relaxes: half the modulus, twice the sag.
 TEST(RelaxationOfBodies, ACubeSinksSlowly)
 {
     btFemSoftBodySolver fem(implicitEuler());
     SoftWorld world(fem);
     world.addPlane();
     btSoftBody& cube = addSoftBox(world, fem, {{1, 1, 1}, {3, 3, 3}, {0, 0, 0.5}});
-    cube.m_cfg.kDF = 0;  // it grows wider, too
+    cube.m_cfg.kDF = 0;  // it also widens
     btFemMaterial material;
     material.m_youngModulus = btScalar(2e5);
     material.m_poissonRatio = 0;
@@ -250,8 +249,8 @@ TEST(RelaxationOfBodies, ACubeSinksSlowly)
         }
         return sum / count;
     };
-    // nu = 0: rho g L^2 / 2 E at first; the shear modulus is 2/3 of the stiffness of a column then, and the bulk
-    // modulus E / 3 stays: E(t) = 9 K G / (3 K + G) with G half of what it was, .6 E.
+    // nu = 0, initially rho g L^2 / 2 E. With G at half of its initial value and the bulk modulus E / 3 constant, E(t)
+    // = 9 K G / (3 K + G) = .6 E; shear contributes 2/3 of the column's stiffness K + 4/3 G at nu = 0.
     const double fast = 1000 * kGravity / 2 / 2e5;
     world.step(1200);
     EXPECT_NEAR(1 - top(), fast / 0.6, 0.05 * fast);

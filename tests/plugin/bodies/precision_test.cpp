@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// What the two precisions of Bullet differ in: digits far from the origin.
+// The difference between Bullet's precisions: resolution far from the origin.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -27,12 +27,12 @@ static_assert(std::is_same_v<btScalar, float>);
 
 constexpr double kEpsilon = static_cast<double>(std::numeric_limits<btScalar>::epsilon());
 
-/// Places of the nodes from `origin` [m], a second after a soft cube was let go there over a box that stands still.
-/// Nothing else is there, so that it must not matter where that is.
+/// Node positions relative to `origin` [m], a second after a soft cube was dropped there on a static box. The scene has
+/// no other objects, so that its result should not depend on the origin.
 std::vector<Vec3> placesAfterAFall(const Vec3& origin, Coupling coupling)
 {
     btFemSolverInfo info;
-    info.m_tolerance = btScalar(1e-8);  // elements in double
+    info.m_tolerance = btScalar(1e-8);  // element kernels in double precision
     btFemSoftBodySolver fem(info);
     SoftWorld world(fem, coupling);
     RigidSettings floor;
@@ -53,9 +53,9 @@ class Precision : public testing::TestWithParam<Coupling>
 {
 };
 
-// The cube's shape is rounded to where it stands, by kEpsilon of the distance, and so are its places. Contact adds to
-// it what the linear solves leave: measured .3 (float) and 80 (double) times that;
-// single precision anywhere in the double build would be 1e8 times.
+// The cube's rest shape and its positions are rounded by kEpsilon times the distance. Contact adds the solver's
+// residual: the measured error is .3 (float) and 80 (double) times that; single precision anywhere in the double build
+// would give 1e8 times.
 TEST_P(Precision, DistantFallHasThePrecisionOfBullet)
 {
     const Vec3 far{2048, -1024, 512};

@@ -45,7 +45,7 @@ btFemMaterial regionMaterial(btScalar young, btScalar poisson, btScalar density)
 const std::map<int, btFemMaterial> kMaterials = {{kLower, regionMaterial(btScalar(1e5), 0, 1000)},
                                                  {kUpper, regionMaterial(btScalar(2e7), 0, 3000)}};
 
-// A Gmsh file of the block that stands on z = 0, its layers two physical groups.
+// A Gmsh file of the block on z = 0, its two layers as physical groups.
 TetMeshFile layeredFile()
 {
     const TetMesh mesh = makeBox({kSide, kSide, 2 * kLayer}, kCells);
@@ -71,7 +71,7 @@ TetMeshFile layeredFile()
     return readTetMesh(bytes.data(), bytes.size(), TetMeshFormat::gmsh);
 }
 
-// A world with a ground, a gap below the block.
+// A world with a ground below the block, separated by a gap.
 class RegionScene
 {
 public:
@@ -92,7 +92,7 @@ public:
         m_fem.setMaterials(body, m_file.m_regions, materials);
         return m_world.addSoft(body);
     }
-    // Bits of all soft bodies at every step.
+    // Bits of all soft bodies after each step.
     std::vector<btScalar> run(int steps)
     {
         std::vector<btScalar> bits;
@@ -137,7 +137,7 @@ TEST(RegionBodies, HaveTheMassesOfTheirRegions)
     EXPECT_NEAR(centerOf(body).x, kSide / 2, 1e-6);
 }
 
-// Without lateral strains every layer is a bar under the weight above: h / E (rho' g h' + rho g h / 2).
+// Without lateral strains each layer is a bar under the weight above: h / E (rho' g h' + rho g h / 2).
 TEST(RegionBodies, SettleOnTheGroundAsTwoBarsDo)
 {
     RegionScene scene;
@@ -155,7 +155,7 @@ TEST(RegionBodies, SettleOnTheGroundAsTwoBarsDo)
     ASSERT_TRUE(scene.m_fem.getStress(&body, stress));
     const double own = 1000 * g * kLayer;
     for (int e = 0; e < stress.size();
-         ++e)  // of the lower layer by its own law: that of the upper has 200 times as much
+         ++e)  // of the lower layer by its own law: by the upper layer's it would have 200 times as much
     {
         const double beyond = std::fabs(double(stress[e].m_zz) + above + own / 2) - .6 * own;
         EXPECT_TRUE(scene.m_file.m_regions[e] == kUpper || beyond < 0) << e << ": " << beyond;
@@ -177,7 +177,7 @@ TEST(RegionBodies, AreTheSameByAnyFormOfCall)
                                [&](const btVector3& centroid)
                                {
                                    ++calls;
-                                   EXPECT_GT(centroid.z(), btScalar(.5));  // where the body lies
+                                   EXPECT_GT(centroid.z(), btScalar(.5));  // in the body's present place
                                    EXPECT_LT(centroid.z(), btScalar(1.1));
                                    return kMaterials.at(centroid.z() < btScalar(.8) ? kLower : kUpper);
                                });
@@ -246,14 +246,14 @@ TEST(RegionBodies, AreRejectedWithTheReason)
     EXPECT_FALSE(scene.m_fem.setMaterials(nullptr, labels, kMaterials, &why));
     EXPECT_THAT(why, HasSubstr("null"));
 
-    // Nothing was changed by any of them.
+    // The rejected calls changed nothing.
     RegionScene untouched;
     untouched.add();
     untouched.m_world.step(5);
     EXPECT_TRUE(scene.run(30) == untouched.run(30));
 }
 
-// Copies with two materials, four of them solved together, and one whose layers are the other way round.
+// Copies with two materials, four of them batched, and one with the layers exchanged.
 class RegionCrowd : public RegionScene
 {
 public:
@@ -307,7 +307,7 @@ TEST(RegionBodies, GoOnToTheBitAfterASnapshot)
     scene.m_fem.restoreState(state.data(), state.size());
     EXPECT_TRUE(scene.run(20) == bits);
 
-    // The material of one region is another: as refused as that of all.
+    // A different material of one region is refused as one of the whole body is.
     std::map<int, btFemMaterial> other = kMaterials;
     for (auto& [label, material] : other) material.m_poissonRatio = btScalar(.47);
     const std::map<int, btFemMaterial> same = other;
@@ -316,7 +316,7 @@ TEST(RegionBodies, GoOnToTheBitAfterASnapshot)
     std::string why;
     EXPECT_FALSE(scene.m_fem.restoreState(state.data(), state.size(), &why));
     EXPECT_THAT(why, HasSubstr("its material is another"));
-    // So are the same materials of other elements.
+    // So are equal materials with other element labels.
     std::vector<int> labels = scene.m_file.m_regions;
     std::swap(labels.front(), labels.back());
     scene.m_fem.setMaterials(scene.m_bodies[1], labels, same);
@@ -339,7 +339,7 @@ TEST(RegionBodies, AreGivenToOthersByDefinitions)
     other.m_fem.saveDefinition(copy, again);
     EXPECT_TRUE(again == definition);
     const int size = static_cast<int>(definition.size());
-    for (int k = 40; k < size; k += 97)  // any byte: refused by the checksum, and without one by what they tell
+    for (int k = 40; k < size; k += 97)  // any byte: refused by its checksum, or without one by its contents
     {
         std::vector<unsigned char> bad = definition;
         bad[static_cast<std::size_t>(k)] ^= 0x55;
@@ -364,13 +364,13 @@ TEST(RegionBodies, MoveAlikeFromBakedFiles)
     btSoftBody* body = btFemHelpers::createFromBaked(fromFile.m_world.info(), baked);
     fromFile.m_fem.useBaked(body, baked);
     fromFile.m_world.addSoft(body);
-    plain.m_fem.prepare(&plain.add(kMaterials, 0, 0), kStep);  // for the step of the file, not the usual one
+    plain.m_fem.prepare(&plain.add(kMaterials, 0, 0), kStep);  // for the file's step, not the default one
     EXPECT_TRUE(plain.run(90) == fromFile.run(90));
     EXPECT_TRUE(fromFile.m_fem.stepReport(body).m_bakedFactor);
     EXPECT_FALSE(fromFile.m_fem.stepReport(body).m_flags & (BT_FEM_STALE_FACTOR | BT_FEM_BAKED_UNUSED));
 }
 
-// Set while it stands: the lower layer becomes as stiff as the upper one, and the block is lifted.
+// At rest the lower layer gets the stiffness of the upper one, and the block rises.
 TEST(RegionBodies, MayGetOtherMaterialsAtAnyTime)
 {
     RegionScene scene;
@@ -387,7 +387,7 @@ TEST(RegionBodies, MayGetOtherMaterialsAtAnyTime)
     EXPECT_TRUE(allFinite(body));
 }
 
-// A cut body has materials for other elements than it has now: that is said, and given anew it is FEM again.
+// A cut body has materials for more elements than it has: a flag reports it, and new materials make it FEM again.
 TEST(RegionBodies, NeedNewMaterialsAfterACut)
 {
     RegionScene scene;

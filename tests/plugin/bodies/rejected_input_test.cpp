@@ -54,7 +54,7 @@ TEST(RejectedMaterial, NamesValueAndRange)
         EXPECT_NE(why.find(bad.m_says), std::string::npos) << why;
         EXPECT_FALSE(material.valid());
         expectRejected([&] { fem.setMaterial(&cube, material); }, {bad.m_says, "["});
-        EXPECT_EQ(cube.m_nodes[0].m_im, inverseMass);  // nothing was changed
+        EXPECT_EQ(cube.m_nodes[0].m_im, inverseMass);  // unchanged
     }
 }
 
@@ -134,7 +134,7 @@ protected:
     SoftWorld m_world{m_fem};
 };
 
-// The body is left to Bullet with the amount in its message; one that fits is stepped.
+// The body is left to Bullet, and the message has the size; a smaller body is stepped.
 TEST(RejectedSize, NamesTheFactorSizeAndTheLimit)
 {
     btFemSolverInfo info;
@@ -151,7 +151,7 @@ TEST(RejectedSize, NamesTheFactorSizeAndTheLimit)
         EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
-// With the low-memory path allowed the same body is stepped, and says how.
+// With the low-memory path allowed the body is stepped, and reports the path.
 TEST(RejectedSize, IsAvoidedByTheLowMemoryPath)
 {
     btFemSolverInfo info;
@@ -204,7 +204,7 @@ TEST_F(RejectedCall, ReportsCloths)
     expectRejected([&] { m_fem.prepare(cloth.get(), kStep); }, {"tetrahedra"});
     expectRejected([&] { m_fem.refactor(cloth.get()); }, {"refactor"});
     expectRejected([&] { m_fem.setNodeTarget(cloth.get(), 0, btVector3(0, 0, 0)); }, {"setNodeTarget"});
-    m_fem.setDetail(cloth.get(), btFemDetail::globalWarp);  // harmless
+    m_fem.setDetail(cloth.get(), btFemDetail::globalWarp);  // has no effect
     EXPECT_FALSE(m_fem.isFem(cloth.get()));
 }
 

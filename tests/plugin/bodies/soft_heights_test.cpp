@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The table of docs/manual.md, How stiff must my body be.
+// The heights in the table of docs/manual.md, How stiff must my body be.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ struct Heights
     const char* m_name;
     btFemMaterial (*m_make)();
     btFemElasticLaw m_law;
-    double m_documented[kSizeCount];  // of every size, as a share of it; 0: collapses
+    double m_documented[kSizeCount];  // for each size, as a share of it; 0: collapses
 };
 
 constexpr btFemElasticLaw kHooke = btFemElasticLaw::hooke, kNeoHooke = btFemElasticLaw::neoHooke;
@@ -47,8 +47,8 @@ double rootOf(double low, double high, const F& f)
     return low;
 }
 
-// Height over H of a column under its weight in uniaxial stress, the law integrated over its length: stretches s along
-// and l across have mu (l^2 - 1) + lambda / 2 (J^2 - 1) = 0, and the pressure on the rest face is mu (l^2 - s^2) / s.
+// Height over H of a column under its weight in uniaxial stress, integrated over its length: stretches s along and l
+// across fulfil mu (l^2 - 1) + lambda / 2 (J^2 - 1) = 0, and the pressure on the rest area is mu (l^2 - s^2) / s.
 double heightOfColumn(const btFemMaterial& m, double weightStrain)
 {
     if (m.m_law == btFemElasticLaw::hooke) return 1 - weightStrain / 2;
@@ -80,7 +80,7 @@ TEST_P(SoftHeights, AreThoseOfTheManual)
     {
         const double size = kSizes[k];
         FemWorld world(WorldClass::softRigid, Coupling::coupled);
-        world.addPlane().setFriction(btScalar(.5));  // what Bullet gives bodies, as the next
+        world.addPlane().setFriction(btScalar(.5));  // Bullet's default friction, as below
         SoftBox box;
         box.m_size = {size, size, size};
         box.m_center = {0, 0, size / 2};
@@ -90,7 +90,7 @@ TEST_P(SoftHeights, AreThoseOfTheManual)
         material.m_law = GetParam().m_law;
         const double weightStrain = material.m_density * kGravity * size / material.m_youngModulus;
         const bool collapses = GetParam().m_documented[k] == 0;
-        if (!collapses) material.m_massDamping = 1;  // so that it comes to rest
+        if (!collapses) material.m_massDamping = 1;  // to settle
         world.fem().setMaterial(&cube, material);
         const btSoftBody::Node* top = nullptr;
         for (int i = 0; i < cube.m_nodes.size(); ++i)
@@ -106,7 +106,7 @@ TEST_P(SoftHeights, AreThoseOfTheManual)
         EXPECT_EQ((flags & BT_FEM_INSIDE_OUT) != 0, collapses) << size << " m";
         if (collapses) continue;
         EXPECT_NEAR(top->m_x.z() / size, GetParam().m_documented[k], .015) << size << " m";
-        // The plane holds the foot of a cube, which is no column.
+        // The plane's friction constrains the lower face of a cube, unlike a column's.
         EXPECT_NEAR(top->m_x.z() / size, heightOfColumn(material, weightStrain), .07) << size << " m";
     }
 }

@@ -15,11 +15,11 @@ namespace bullet_fem
 namespace
 {
 
-class StiffBodies : public testing::TestWithParam<std::tuple<double, double>>  // with density [kg/m3], step [s]
+class StiffBodies : public testing::TestWithParam<std::tuple<double, double>>  // density [kg/m3], step [s]
 {
 };
 
-// A light plate of 1 GPa: in a long step its stiffness is up to 2e7 times its mass, and the factor has single
+// A light plate of 1 GPa: in a long step the ratio of stiffness to mass in A is up to 2e7, and the factor has single
 // precision.
 TEST_P(StiffBodies, RestWithoutABreakdown)
 {

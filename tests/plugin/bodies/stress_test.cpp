@@ -26,8 +26,8 @@ Vec3 centreOf(const btSoftBody& body, int tet)
     return 0.25 * sum;
 }
 
-// Hung up by its upper end, it carries at every height the weight of what is below: rho g z / 1 m2 of section. Where
-// the contraction is free, a depth away from the upper end, that is von Mises' stress, too.
+// A body fixed at its upper end carries at each height the weight below: rho g z per m2 of section. At some distance
+// from the upper end, where contraction is free, that is the von Mises stress, too.
 TEST(StressOfABody, HangingBodyCarriesTheWeightBelow)
 {
     btFemSoftBodySolver fem;
@@ -80,16 +80,16 @@ TEST(StressOfABody, IsLargestAtTheClampOfABeam)
     for (int i = 0; i < perNode.size(); ++i)
         if (perNode[i] > perNode[hottest]) hottest = i;
     const btVector3 place = beam.body().m_nodes[hottest].m_x;
-    EXPECT_LT(place.x(), btScalar(-1.5));  // of -2 to 2
+    EXPECT_LT(place.x(), btScalar(-1.5));  // the range is -2 to 2
     EXPECT_GT(std::fabs(place.z()), btScalar(0.45));
     EXPECT_NEAR(double(perNode[hottest]), double(stress[hottest].vonMises()), 1e-5 * double(perNode[hottest]));
-    // Tension above, pressure below; three cells through the thickness see .7 of M / W (docs/theory.md).
+    // Tension above, compression below; three cells through the thickness give .7 of M / W (docs/theory.md).
     const double fibre = 1000 * kGravity * 4 * 4 / 2 * 6;
     EXPECT_NEAR(double(perNode[hottest]) / fibre, 0.7, 0.1);
     EXPECT_GT(double(stress[hottest].m_xx) * place.z(), 0);
 }
 
-// As far as single precision goes, in which a step to a tolerance of 1e-3 computes strains.
+// Zero to single precision, in which a step with a tolerance of 1e-3 computes strains.
 TEST(StressOfABody, IsZeroAtRestForATurnedBody)
 {
     btFemSoftBodySolver fem;
@@ -116,11 +116,11 @@ TEST(StressOfABody, IsThereOnceTheBodyIsPrepared)
     for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_x.setX(cube.m_nodes[i].m_x.x() * btScalar(1.01));
     fem.prepare(&cube, kStep);
     ASSERT_TRUE(fem.getVonMises(&cube, vonMises));
-    const double shear = 1e6 / 2.6;  // of the unset material, nu .3
+    const double shear = 1e6 / 2.6;  // of the default material, nu .3
     for (int e = 0; e < vonMises.size(); ++e) EXPECT_NEAR(double(vonMises[e]), 2 * shear * 0.01, 0.02 * shear * 0.01);
 }
 
-// What rests on the plane is carried by the nodes of its lower face.
+// The nodes of the lower face carry the weight.
 TEST(ContactForcesOfNodes, CarryTheWeight)
 {
     btFemSoftBodySolver fem;

@@ -22,7 +22,7 @@ namespace
 constexpr double kDensityOfSoft = 500;                              // [kg/m3]
 constexpr double kSlabLength = 2, kSlabWidth = 1, kSlabThick = .5;  // [m], along x, y and z
 
-// Of which rho g `height` is so many times E.
+// A material with rho g `height` = `weightStrain` E.
 btFemMaterial softMaterial(double weightStrain, double height)
 {
     btFemMaterial material;
@@ -111,7 +111,7 @@ TEST_P(TooSoft, FlagFollowsGravity)
     EXPECT_FALSE(isFlagged(body));
     m_world.setSoftGravity({0, 0, btScalar(-.5 * kGravity)});
     EXPECT_FALSE(isFlagged(body));
-    m_world.setSoftGravity({btScalar(-.5 * kGravity), 0, 0});  // four times as long along x
+    m_world.setSoftGravity({btScalar(-.5 * kGravity), 0, 0});  // the body is four times as long along x
     EXPECT_TRUE(isFlagged(body));
 }
 

@@ -35,7 +35,7 @@ std::string vtkText(const TetMesh& mesh)
     return text.str();
 }
 
-/// A cube of .5 m, as pybullet's users would have it.
+/// A cube of .5 m, loaded as a pybullet user would.
 class UrdfBody : public ::testing::Test
 {
 protected:
@@ -76,7 +76,7 @@ TEST_F(UrdfBody, HasThePropertiesOfTheFile)
     EXPECT_EQ(m_material.m_density, 0);
 }
 
-// As Bullet's own reduced_cube is: sizes that do not fit, and no types.
+// A file as Bullet's reduced_cube: with wrong sizes, and without types.
 TEST_F(UrdfBody, HasTheMeshOfBulletsOwnData)
 {
     std::string text = "#" + vtkText(makeBox({0.5, 0.5, 0.5}, {3, 3, 3})).substr(2);
@@ -105,7 +105,7 @@ TEST_F(UrdfBody, RestsWithItsWeightSqueezedAsItsModuliSay)
     EXPECT_NEAR(m_fem.contactForce(&cube, &floor).z(), weight, 1e-3 * weight);
     double height = 0;
     for (const int i : top) height += double(cube.m_nodes[i].m_x.z()) / double(top.size());
-    // E 25000 Pa; without friction the foot widens freely.
+    // E 25000 Pa; without friction the lower face widens freely.
     const double squeezed = weight / (0.5 * 0.5) * 0.5 / (2 * 25000);
     EXPECT_NEAR(0.5 - height, squeezed, 0.04 * squeezed);
 }

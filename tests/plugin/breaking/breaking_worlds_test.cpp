@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Welded bodies in contact: what breaks, what stays the same, and that every run is alike.
+//
+// Welded bodies in contact: breaking, momenta, and reproducible runs.
 #include <gtest/gtest.h>
 
 #include "plugin/breaking/welded_scene.h"
@@ -47,7 +48,7 @@ class BrokenPlate : public testing::TestWithParam<Coupling>
 INSTANTIATE_TEST_SUITE_P(Solvers, BrokenPlate, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-// Free in space: a ball flies through a plate that was whole.
+// In free space a ball flies through a plate of welded fragments.
 TEST_P(BrokenPlate, ConservesMassAndMomentaWithTheProjectile)
 {
     CutBoxScene scene(plate(), GetParam(), 0, {});
@@ -69,7 +70,7 @@ TEST_P(BrokenPlate, ConservesMassAndMomentaWithTheProjectile)
     for (const btFemPiece& piece : scene.m_pieces) after += massOf(*piece.m_body);
     EXPECT_EQ(after, mass);
     EXPECT_GT(total().m_linear.z - motionOf(ball).m_linear.z, -360);  // the plate was hit
-    EXPECT_LT(motionOf(ball).m_linear.z, -20);                        // and the ball went on
+    EXPECT_LT(motionOf(ball).m_linear.z, -20);                        // and the ball passed
     EXPECT_GT(motionOf(ball).m_linear.z, -350);
     const double scale = norm(before.m_linear);
     EXPECT_LT(norm(total().m_linear - before.m_linear), 5e-5 * scale);
@@ -77,7 +78,7 @@ TEST_P(BrokenPlate, ConservesMassAndMomentaWithTheProjectile)
     EXPECT_LT(total().m_energy, before.m_energy);
 }
 
-// The breaking itself changes no node: only what comes after does.
+// Breaking itself changes no node state; only later steps do.
 TEST_P(BrokenPlate, KeepsTheMotionOfTheWholeAtBreaking)
 {
     const auto run = [](double stress)
@@ -103,7 +104,7 @@ TEST_P(BrokenPlate, KeepsTheMotionOfTheWholeAtBreaking)
     EXPECT_FALSE(strong.second[weak.first + 1] == weak.second[weak.first + 1]);
 }
 
-// Between two walls hangs a plate that a ball falls through; one that bears it keeps it.
+// A ball falls through a plate that hangs between two walls; a strong plate stops it.
 TEST_P(BrokenPlate, LetsTheBallThroughAndAStrongOneDoesNot)
 {
     for (const double stress : {4e4, 1e12})
@@ -148,7 +149,7 @@ TEST_P(BrokenPlate, HasTheSameBitsForEveryNumberOfThreads)
     for (const int threads : {2, 3, 8}) EXPECT_TRUE(runPlate(GetParam(), threads) == alone) << threads;
 }
 
-// Saved while it is whole, and while it is half broken.
+// Saved before it breaks, and while it is partly broken.
 TEST_P(BrokenPlate, GoesOnToTheBitFromASavedState)
 {
     CutBoxScene scene(plate(), GetParam(), kGravity, {});

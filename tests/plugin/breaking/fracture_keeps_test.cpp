@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What a body keeps as it splits.
+//
+// Properties that a body keeps when it splits.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -14,7 +15,7 @@ namespace
 {
 
 constexpr double kBearsHere = 8000;           // [Pa]
-constexpr double kPullHere = kBearsHere / 4;  // on the section of .25 m2 [N]
+constexpr double kPullHere = kBearsHere / 4;  // with the section of .25 m2 [N]
 
 std::vector<int> nodesAtRightEnd(const BarScene& scene)
 {
@@ -24,7 +25,7 @@ std::vector<int> nodesAtRightEnd(const BarScene& scene)
     return end;
 }
 
-// Beyond the yield stress the bar has a plastic strain where it is pulled; no element loses it.
+// Beyond the yield stress the bar has plastic strains; each element keeps its own.
 TEST(SplitBody, KeepsItsPlasticStrain)
 {
     Bar bar;
@@ -66,8 +67,8 @@ int nearestNode(const btSoftBody& body, const btVector3& x)
     return nearest;
 }
 
-// The right end is tied to a wall .04 m away, which tears the bar in two, and a spring holds it, too. All of them stay:
-// the end is where the wall is, and the report has them.
+// The right end is attached to a wall .04 m away, which tears the bar in two, and to a spring. The attachments stay:
+// the end is at the wall, and the report lists them.
 TEST(SplitBody, KeepsAttachmentsAndSprings)
 {
     Bar bar;
@@ -99,7 +100,7 @@ TEST(SplitBody, KeepsAttachmentsAndSprings)
     EXPECT_EQ(scene.m_fem.anchors(scene.m_bar).size(), 10);
 }
 
-// Fibres are of elements, which stay; a cable runs through nodes, which may have parted.
+// Fibres belong to elements, which stay; a cable runs through nodes, which may have split.
 TEST(SplitBody, KeepsFibresAndLosesCables)
 {
     Bar bar;
@@ -121,8 +122,7 @@ TEST(SplitBody, KeepsFibresAndLosesCables)
     ASSERT_TRUE(scene.m_fem.getActuators(scene.m_bar, left));
     ASSERT_EQ(left.size(), 1);
     EXPECT_EQ(left[0].m_actuator, muscle);
-    // At rest they hold what they draw: the pieces are shorter along them by a / E, and have no stress once they are
-    // off.
+    // Activated fibres of the fragments are in equilibrium: shorter by a / E, and without stress once detached.
     scene.m_world.step(120);
     btAlignedObjectArray<btScalar> activation;
     ASSERT_TRUE(scene.m_fem.getActivation(scene.m_bar, activation));

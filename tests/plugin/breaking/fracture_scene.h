@@ -24,7 +24,7 @@ namespace bullet_fem
 enum class BarMesh
 {
     regular,  ///< cubes of five or six tetrahedra
-    shaken    ///< the same with inner nodes moved at random, so that no section is a plane of faces
+    shaken    ///< with inner nodes moved at random, so that no section is a plane of faces
 };
 
 /// A bar along x about the origin.
@@ -36,7 +36,7 @@ struct Bar
     double m_slit = 0;  ///< x of a slit across the upper half, between cells; 0: none [m]
     btScalar m_youngModulus = btScalar(1e6);
     btScalar m_poissonRatio = 0;
-    btScalar m_massDamping = 5;    ///< [1/s]
+    btScalar m_massDamping = 5;    ///< mass damping [1/s]
     bool m_isClampedLeft = false;  ///< at its lower end of x
 };
 
@@ -69,7 +69,7 @@ inline TetMesh meshOf(const Bar& bar)
     return TetMesh(X, tets);
 }
 
-/// A bar in a world, FEM, without gravity unless it is given.
+/// A FEM bar in a world, without gravity unless it is given.
 class BarScene
 {
 public:
@@ -98,14 +98,15 @@ public:
         btFemFracture::setStrength(m_fem, m_bar, strength);
     }
 
-    /// A force along x on the face at the upper end of x, and its opposite at the lower end, in the next step [N].
+    /// Applies a force along x to the face at the upper end of x, and its opposite at the lower end, in the next step
+    /// [N].
     void pull(double force)
     {
         for (std::size_t k = 0; k < m_endNodes.size(); ++k)
             m_bar->m_nodes[m_endNodes[k]].m_f += btVector3(btScalar(force * m_endShare[k] / m_area), 0, 0);
     }
 
-    /// Pulls harder and harder, until something splits or the force is reached; the force then [N].
+    /// Increases the force until the bar splits or the force reaches `largest`; returns the last force [N].
     double pullUntilItSplits(double largest, double seconds = 4)
     {
         double force = 0;
@@ -117,7 +118,7 @@ public:
         }
         return force;
     }
-    /// On with that force until it is in two, a second at the most.
+    /// Continues with that force until the bar is in two parts, for a second at most.
     void pullInTwo(double force)
     {
         for (int k = 0; k < 60 && parts() < 2; ++k)
@@ -130,7 +131,7 @@ public:
     const btAlignedObjectArray<btFemSplit>& splits() const { return btFemFracture::splits(m_fem); }
     int parts() const { return splits().size() > 0 ? splits()[splits().size() - 1].m_parts : 1; }
 
-    /// Per node: the lowest node of the part that it belongs to.
+    /// Per node: the lowest node index of its part.
     std::vector<int> partOfNodes() const
     {
         DisjointSets sets(m_bar->m_nodes.size());
@@ -140,7 +141,7 @@ public:
         for (int i = 0; i < m_bar->m_nodes.size(); ++i) part.push_back(sets.root(i));
         return part;
     }
-    /// Of two parts: 1 for nodes of the one that lies at larger x.
+    /// For two parts: 1 for nodes of the part at larger x.
     std::vector<int> isRight() const
     {
         const std::vector<int> part = partOfNodes();
@@ -178,7 +179,7 @@ public:
         return mass;
     }
 
-    /// All that can be seen of the bar, and what split.
+    /// Bits of the bar's whole visible state, and its splits.
     std::vector<btScalar> bits() const
     {
         std::vector<btScalar> all = bitsOf(*m_bar);

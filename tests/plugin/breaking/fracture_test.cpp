@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bodies that split along faces of their elements where tension is beyond their strength.
+//
+// Bodies split along element faces when the tension exceeds their strength.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +36,7 @@ class SplittingBar : public testing::TestWithParam<Coupling>
 INSTANTIATE_TEST_SUITE_P(Solvers, SplittingBar, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-// Stress is F / A: in a regular mesh, and in one that has no plane of faces across the pull.
+// Stress is F / A: in a regular mesh, and in one without a plane of faces across the pull.
 TEST_P(SplittingBar, BreaksAcrossThePullAtTheSetStrength)
 {
     for (const BarMesh mesh : {BarMesh::regular, BarMesh::shaken})
@@ -54,7 +55,7 @@ TEST_P(SplittingBar, BreaksAcrossThePullAtTheSetStrength)
         EXPECT_EQ(scene.parts(), 2);
         double area = 0;
         for (int k = 0; k < scene.splits().size(); ++k) area += double(scene.splits()[k].m_area);
-        EXPECT_NEAR(area, kSection, (mesh == BarMesh::regular ? 0.01 : 0.1) * kSection);  // and nothing else
+        EXPECT_NEAR(area, kSection, (mesh == BarMesh::regular ? 0.01 : 0.1) * kSection);  // and no other faces
     }
 }
 
@@ -84,7 +85,7 @@ Bar notchedBar()
     return bar;
 }
 
-// Half of the section is left there, and stress is larger still at the bottom of the slit.
+// Half of the section is left at the slit, and the stress concentrates at its bottom.
 TEST_P(SplittingBar, BreaksAtItsNotch)
 {
     BarScene scene(notchedBar(), GetParam());
@@ -105,7 +106,7 @@ TEST_P(SplittingBar, BreaksAtItsNotch)
         }
 }
 
-/// It flies and turns while its ends are pulled.
+/// A free bar in rotation while its ends are pulled.
 Bar freeBar()
 {
     Bar bar;
@@ -125,7 +126,7 @@ void throwIt(const BarScene& scene)
     }
 }
 
-// Its twin has no strength, and is at the same place in the same motion when it splits.
+// The reference bar has no strength, and an equal state when the other one splits.
 TEST_P(SplittingBar, KeepsMassMotionAndStressAsItSplits)
 {
     BarScene scene(freeBar(), GetParam(), 0, {}), twin(freeBar(), GetParam(), 0, {});
@@ -175,7 +176,7 @@ TEST_P(SplittingBar, KeepsItsMomentaAfterwards)
     EXPECT_LT(norm(after.m_angular - before.m_angular), 5e-5 * norm(before.m_angular));
 }
 
-// The halves are thrown at each other.
+// The halves move towards each other.
 TEST_P(SplittingBar, PartsCollideUnlessDisabled)
 {
     for (const bool touch : {true, false})
@@ -203,12 +204,12 @@ TEST_P(SplittingBar, PartsCollideUnlessDisabled)
             touching += scene.m_fem.contacts(scene.m_bar).size() > 0;
         }
         EXPECT_EQ(touching > 0, touch);
-        EXPECT_EQ(scene.isRight() == right, touch);  // or they have changed places
+        EXPECT_EQ(scene.isRight() == right, touch);  // otherwise they have passed through each other
         EXPECT_LT(norm(motionOf(*scene.m_bar).m_linear - before), 1e-3 * massOf(*scene.m_bar));
     }
 }
 
-// What broke off falls back on what is left, lies there, and has its weight.
+// The broken-off part falls on the remaining one and rests there; the contact force is its weight.
 TEST_P(SplittingBar, SupportsTheBrokenOffPart)
 {
     BarScene scene(heldBar(), GetParam());
@@ -224,7 +225,7 @@ TEST_P(SplittingBar, SupportsTheBrokenOffPart)
     EXPECT_NEAR(std::fabs(impulseOn(scene.m_fem, *scene.m_bar, scene.m_bar).x) * 60, weight, 0.01 * weight);
 }
 
-// Its right end is moved: the nodes there are held on.
+// The nodes of its right end have targets and keep them.
 TEST(Splitting, KeepsTargetsAndPins)
 {
     BarScene scene(heldBar());

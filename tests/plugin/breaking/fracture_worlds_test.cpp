@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bodies that split in contact: momenta, the same bits in every run, and saved states.
+//
+// Fracture in contact: momenta, reproducible runs, and saved states.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -43,7 +44,7 @@ class SplittingPlate : public testing::TestWithParam<Coupling>
 INSTANTIATE_TEST_SUITE_P(Solvers, SplittingPlate, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-// Free in space: a ball flies through.
+// In free space a ball flies through the plate.
 TEST_P(SplittingPlate, ConservesMassAndMomentaWithTheProjectile)
 {
     BarScene scene(brittlePlate(), GetParam(), 0, {});
@@ -88,7 +89,8 @@ TEST_P(SplittingPlate, HasTheSameBitsForEveryNumberOfThreads)
     for (const int threads : {2, 3}) EXPECT_TRUE(runSplittingPlate(GetParam(), threads) == alone) << threads;
 }
 
-// Saved before it splits, and refused afterwards; saved in the midst of it, and restored while nothing splits.
+// A state from before a split is refused afterwards; one saved during fracture is restored as long as no further split
+// happens.
 TEST_P(SplittingPlate, GoesOnFromASavedStateAsLongAsItIsTheSameMesh)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity, {});
@@ -128,7 +130,7 @@ TEST_P(SplittingPlate, GoesOnFromASavedStateAsLongAsItIsTheSameMesh)
     }
 }
 
-// What broke lies on the floor, and one upon another.
+// Fragments come to rest on the floor, and one upon another.
 TEST_P(SplittingPlate, ComesToRestInParts)
 {
     BarScene scene(brittlePlate(), GetParam(), kGravity);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Bodies that are cut into pieces.
+//
+// Bodies cut into fragments.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -103,7 +104,7 @@ TEST_F(FragmentsTest, OneLabelInTwoPlacesGivesTwoFragments)
     EXPECT_EQ(whole.m_tetras.size(), 20);
 }
 
-// What was strained is strained when it is cut.
+// Strains are kept by cutting.
 TEST_F(FragmentsTest, KeepTheRestShapePinsAndSettings)
 {
     btSoftBody& whole = box({1, 0.8, 0.6}, {5, 4, 3});
@@ -124,7 +125,7 @@ TEST_F(FragmentsTest, KeepTheRestShapePinsAndSettings)
                                     &is = piece.m_body->m_tetras[static_cast<int>(e)];
             EXPECT_NEAR(double(is.m_element_measure), double(of.m_element_measure),
                         1e-5 * double(of.m_element_measure));
-            Mat3 F[2];  // from rest to now, whatever order the nodes have
+            Mat3 F[2];  // from rest to present, for any order of the nodes
             for (const btSoftBody::Tetra* tet : {&of, &is})
             {
                 btMatrix3x3 edges;
@@ -153,10 +154,10 @@ TEST_F(FragmentsTest, VoronoiCellsAreWholeAndReproducible)
     EXPECT_NE(first, other);
     EXPECT_EQ(std::set<int>(first.begin(), first.end()).size(), 12u);
     cut(first);
-    EXPECT_EQ(m_pieces.size(), 12u);  // no cell in two parts
+    EXPECT_EQ(m_pieces.size(), 12u);  // each cell is in one connected part
     std::size_t smallest = first.size();
     for (const btFemPiece& piece : m_pieces) smallest = std::min(smallest, piece.m_tets.size());
-    EXPECT_GT(smallest, first.size() / 12 / 5);  // spread, not heaped
+    EXPECT_GT(smallest, first.size() / 12 / 5);  // of similar size
 }
 
 TEST_F(FragmentsTest, AreRejectedForBadInput)

@@ -18,7 +18,7 @@
 namespace bullet_fem
 {
 
-/// A box that is cut into pieces: by planes across x, or into Voronoi cells.
+/// A box cut into fragments: by planes across x, or into Voronoi cells.
 struct CutBox
 {
     Vec3 m_size = {2, 0.5, 0.5};             ///< [m]
@@ -46,7 +46,7 @@ inline std::vector<int> sliceLabels(const TetMesh& mesh, int slices)
     return labels;
 }
 
-/// Its pieces in a world, FEM and ready to be welded, and the body that they are of, which is in no world.
+/// The fragments in a world, as FEM bodies ready for welding, and the original body, which is in no world.
 class CutBoxScene
 {
 public:
@@ -83,7 +83,7 @@ public:
 
     int weld(const btFemWeldStrength& strength = {}) { return btFemWelds::weldPieces(m_fem, m_pieces, strength); }
 
-    /// A force along x on the face at the upper end of x, in the next step [N].
+    /// Applies a force along x to the face at the upper end of x, in the next step [N].
     void pull(double force)
     {
         double right = -1e30, area = 0;
@@ -108,7 +108,7 @@ public:
                 }
     }
 
-    /// Sums over the pieces.
+    /// Sums over the fragments.
     Motion motion() const
     {
         Motion sum;
@@ -140,7 +140,7 @@ public:
     }
     const btAlignedObjectArray<btFemWeldBreak>& breaks() const { return btFemWelds::breaks(m_fem); }
 
-    /// All that can be seen of the pieces, and what broke.
+    /// Bits of the fragments' whole visible state, and the breaks.
     std::vector<btScalar> bits() const
     {
         std::vector<btScalar> all;

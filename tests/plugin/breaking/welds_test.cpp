@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Welds between pieces: what they bear, and when they break.
+//
+// Welds between fragments: their strength, and when they break.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +20,7 @@ constexpr double kLimit = 2000;       // of the welds [N]
 constexpr double kArea = 0.25;        // of the bar's section [m2]
 constexpr double kRise = kLimit / 4;  // of the force [N/s]
 
-/// Pulls a clamped bar harder and harder until something breaks or `seconds` are over; the force then [N].
+/// Increases the force on a clamped bar until a weld breaks or `seconds` are over; returns the last force [N].
 double pullUntilItBreaks(CutBoxScene& scene, double seconds = 6)
 {
     double force = 0;
@@ -73,7 +74,7 @@ TEST_P(WeldedBar, BreaksAtTheSetForce)
     EXPECT_EQ(scene.breaks().size(), 0);
 }
 
-// Without Poisson's ratio the stress is the same all over the section.
+// With a Poisson's ratio of 0 the stress is uniform over the section.
 TEST_P(WeldedBar, TearsAtTheSetStress)
 {
     CutBoxScene scene(clampedBar(), GetParam());
@@ -85,7 +86,7 @@ TEST_P(WeldedBar, TearsAtTheSetStress)
     EXPECT_NEAR(double(scene.breaks()[0].m_stress), kLimit / kArea, 0.02 * kLimit / kArea);
     scene.pull(kLimit);
     scene.m_world.step();
-    EXPECT_TRUE(scene.welds().empty());  // what one node no longer bears the next ones do not
+    EXPECT_TRUE(scene.welds().empty());  // a weld that fails overloads the next ones
 }
 
 TEST_P(WeldedBar, StretchesGlueByItsComplianceAndTearsItAtItsStretch)
@@ -151,7 +152,7 @@ double lowestTip(const CutBoxScene& scene)
     return lowest;
 }
 
-// The welds add nothing: the mesh is the same, and so is its bending.
+// Welds add no stiffness: the mesh is that of the whole, and so is its bending.
 TEST_P(WeldedBeam, BendsAsTheWhole)
 {
     CutBox bar = clampedBar();
@@ -184,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Cuts, WeldedBeam,
                                                             : std::to_string(cut.param.m_voronoi) + "cells");
                          });
 
-// Faces that lie upon each other push nothing apart.
+// Coincident faces do not push fragments apart.
 TEST(Welds, KeepFragmentsAtRestWithoutContactUntilTheyBreak)
 {
     CutBox box;
@@ -203,7 +204,7 @@ TEST(Welds, KeepFragmentsAtRestWithoutContactUntilTheyBreak)
     EXPECT_GT(scene.contacts(), 0);
 }
 
-// A bar that is bent into a hairpin: its ends lie upon each other.
+// A bar bent into a hairpin, with its ends one upon another.
 TEST(Welds, MakeFragmentsOneBodyWithOptionalSelfContact)
 {
     for (const bool mayTouchItself : {false, true})
@@ -216,7 +217,7 @@ TEST(Welds, MakeFragmentsOneBodyWithOptionalSelfContact)
             if (mayTouchItself) piece.m_body->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;
         scene.weld();
         btSoftBody& left = *scene.m_pieces[0].m_body;
-        btSoftBody* right = nullptr;  // any that is not welded to it
+        btSoftBody* right = nullptr;  // any fragment not welded to it
         for (const btFemPiece& piece : scene.m_pieces)
         {
             bool isWelded = piece.m_body == &left;
@@ -240,7 +241,7 @@ TEST(Welds, BrokenWeldsLetFragmentsCollide)
     btFemWeldStrength strength;
     strength.m_breakForce = 1000;
     scene.weld(strength);
-    for (int side = 0; side < 2; ++side)  // apart at 1 m/s each
+    for (int side = 0; side < 2; ++side)  // separating at 1 m/s each
     {
         btSoftBody& body = *scene.m_pieces[side].m_body;
         body.setVelocity({btScalar(2 * side - 1), 0, 0});
@@ -252,7 +253,7 @@ TEST(Welds, BrokenWeldsLetFragmentsCollide)
         for (int i = 0; i < scene.m_pieces[side].m_body->m_nodes.size(); ++i)
             scene.m_pieces[side].m_body->m_nodes[i].m_v = {btScalar(1 - 2 * side), 0, 0};
     scene.m_world.step(60);
-    EXPECT_LT(centerOf(*scene.m_pieces[0].m_body).x, -0.4);  // they met and did not pass
+    EXPECT_LT(centerOf(*scene.m_pieces[0].m_body).x, -0.4);  // they were in contact and did not pass through
     EXPECT_GT(centerOf(*scene.m_pieces[1].m_body).x, 0.4);
     EXPECT_LT(norm(scene.motion().m_linear), 1e-3);
 }

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A cube that hangs from its pinned upper face, settled, of a material of its own.
+/// A cube at rest, pinned at its upper face, with its own material.
 class HangingCube
 {
 public:
@@ -43,7 +43,7 @@ public:
     double sag() const { return m_sag; }  ///< [m]
     int flags() const { return m_world.fem().stepReport(m_body).m_flags; }
 
-    /// Appends nodes that no element uses, so many that Bullet has to move all.
+    /// Appends nodes that no element uses, enough to make Bullet reallocate the array.
     void appendNodes()
     {
         const btSoftBody::Node* first = &m_body->m_nodes[0];
@@ -96,8 +96,8 @@ TEST_P(ChangedArrays, NodesAppendedInMidRunLeaveTheBodyAsItWas)
         EXPECT_LT(cube.body().m_tetras[e].m_n[0] - &cube.body().m_nodes[0], 125);
 }
 
-// The weight at the new node stretches the cube; what hung before is the rest shape, because appendTetra gives the new
-// element no matrix.
+// The weight at the new node stretches the cube; its present shape becomes the rest shape, because appendTetra gives
+// the new element no matrix.
 TEST_P(ChangedArrays, TetrahedraAppendedInMidRunAreElementsFromTheNextStepOn)
 {
     HangingCube cube(GetParam());
@@ -112,7 +112,7 @@ TEST_P(ChangedArrays, TetrahedraAppendedInMidRunAreElementsFromTheNextStepOn)
     cube.world().step(300);
     EXPECT_TRUE(allFinite(cube.body()));
     EXPECT_LT(fastestNode(cube.body()), 1e-3);
-    EXPECT_LT(lowestHeight(cube.body()), appended - cube.sag());  // it sags once more, and farther
+    EXPECT_LT(lowestHeight(cube.body()), appended - cube.sag());  // it sags again, and further
     EXPECT_GT(lowestHeight(cube.body()), appended - 0.2);
 }
 
@@ -127,14 +127,14 @@ TEST_P(ChangedArrays, RemovedTetrahedraAreGoneFromTheNextStepOn)
     EXPECT_TRUE(allFinite(cube.body()));
 }
 
-// In place, which Bullet does not say: parts of the body are looked at in turn. As that tetrahedron has no matrix of
-// the nodes that it joins now, what hung before is the rest shape.
+// Joined to other nodes in place, which Bullet does not report: parts of the body are checked in turn. As that
+// tetrahedron's matrix does not fit its new nodes, the present shape becomes the rest shape.
 TEST_P(ChangedArrays, TetrahedraJoinedOtherwiseInPlaceAreSeenWithinEightSteps)
 {
     HangingCube cube(GetParam());
     btSoftBody::Tetra& tetra = cube.body().m_tetras[cube.body().m_tetras.size() / 2];
     std::swap(tetra.m_n[0], tetra.m_n[1]);
-    std::swap(tetra.m_n[2], tetra.m_n[3]);  // the same body, numbered otherwise
+    std::swap(tetra.m_n[2], tetra.m_n[3]);  // an equal body with another node order
     int seen = 0;
     for (int k = 0; k < 8; ++k)
     {
@@ -147,7 +147,7 @@ TEST_P(ChangedArrays, TetrahedraJoinedOtherwiseInPlaceAreSeenWithinEightSteps)
     EXPECT_NEAR(-1 - lowestHeight(cube.body()), 2 * cube.sag(), 0.03 * 2 * cube.sag());
 }
 
-// A body of which nobody knows where its nodes were is left to Bullet, with a message.
+// A body whose earlier node positions are unknown is left to Bullet, with a message.
 TEST_P(ChangedArrays, NodesAppendedAfterTheTetrahedraBeforeTheFirstStepAreFlagged)
 {
     FemWorld world(GetParam());
@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(ChangedArrays, ChangedInTick,
                                                           std::make_pair(WorldClass::deformable, Coupling::swap))),
                          tickName);
 
-// Render nodes go by pointers to nodes, which Bullet leaves behind as well.
+// Render nodes refer to nodes by pointers, which Bullet leaves dangling, too.
 TEST_P(ChangedArrays, AnEmbeddedSurfaceFollows)
 {
     HangingCube cube(GetParam());

@@ -25,7 +25,7 @@ TetMesh barMesh()
     return makeBox({1.2, .4, .4}, {6, 2, 2}, {0, 0, 1});
 }
 
-// --- The ways to make a body ---
+// --- Ways to create a body ---
 
 btSoftBody* fromTetGen(SoftWorld& world, const TetMesh& mesh, bool links)
 {
@@ -49,7 +49,7 @@ btSoftBody* fromVtk(SoftWorld& world, const TetMesh& mesh)
     return btSoftBodyHelpers::CreateFromVtkFile(world.info(), path.c_str());
 }
 
-// As Panda3D does: nobody calls initializeDmInverse.
+// As in Panda3D: without a call of initializeDmInverse.
 btSoftBody* byHand(SoftWorld& world, const TetMesh& mesh, bool turned)
 {
     auto* body = new btSoftBody(&world.info());
@@ -73,7 +73,7 @@ struct Way
     int m_flags = 0;
 };
 
-/// A bar clamped at one end, bending under its weight.
+/// Adds a bar clamped at one end, which bends under its weight.
 btSoftBody& addBar(SoftWorld& world, btFemSoftBodySolver& fem, btSoftBody* body)
 {
     btFemMaterial material;
@@ -116,7 +116,7 @@ TEST_P(Creator, MakesTheSameBodyAsOurHelpers)
     EXPECT_EQ(fem.stepReport(&theirs).m_flags, value().m_flags);
     const double bent = largestDifference(rest, edgesOf(ours));
     EXPECT_GT(bent, 0.05);
-    EXPECT_LT(largestDistance(ours, theirs), 2e-3 * bent);  // two solves to 1e-3
+    EXPECT_LT(largestDistance(ours, theirs), 2e-3 * bent);  // two solves to a tolerance of 1e-3
     EXPECT_EQ(theirs.m_faces.size(), ours.m_faces.size());
 }
 
@@ -143,13 +143,13 @@ TEST_P(Creation, FacesAreMadeOutwardIfTheCreatorMadeNone)
     body.m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSided;
     body.m_cfg.kDG = btScalar(0.5);
     body.setWindVelocity(btVector3(20, 0, 0));
-    body.setVelocity(btVector3(0, 1, 0));  // Bullet clamps wind on a node to what would stop it
+    body.setVelocity(btVector3(0, 1, 0));  // Bullet limits wind on a node to the impulse that stops it
     world.step();
     EXPECT_EQ(body.m_faces.size(), static_cast<int>(mesh.surface().size()));
     EXPECT_NEAR(body.getVolume(), mesh.volume(), 1e-5 * mesh.volume());  // by the divergence theorem: outward
     for (int f = 0; f < body.m_faces.size(); ++f) EXPECT_NEAR(body.m_faces[f].m_normal.length(), 1, 1e-5);
     world.step(5);
-    EXPECT_GT(velocityOf(body).x, 1e-3);  // wind has something to push at
+    EXPECT_GT(velocityOf(body).x, 1e-3);  // wind acts on the faces
 }
 
 TEST_P(Creation, FacesThatExistAreLeftAlone)
@@ -157,7 +157,7 @@ TEST_P(Creation, FacesThatExistAreLeftAlone)
     FemWorld world(GetParam(), btVector3(0, 0, 0));
     btFemSoftBodySolver& fem = world.fem();
     btSoftBody* made = byHand(world, barMesh(), false);
-    made->appendFace(3, 1, 0);  // one alone, and of whatever orientation
+    made->appendFace(3, 1, 0);  // one face alone, in any orientation
     btSoftBody& body = world.addSoft(made);
     world.step(3);
     ASSERT_EQ(body.m_faces.size(), 1);
@@ -172,7 +172,7 @@ btSoftBody* makeWithUnusedNodes(SoftWorld& world)
     btSoftBody* body = byHand(world, barMesh(), false);
     auto* with = new btSoftBody(&world.info());
     with->appendMaterial();
-    with->appendNode(btVector3(-3, 0, 5), 7);  // before and after the others
+    with->appendNode(btVector3(-3, 0, 5), 7);  // before and after the used nodes
     for (int i = 0; i < body->m_nodes.size(); ++i) with->appendNode(body->m_nodes[i].m_x, 1);
     with->appendNode(btVector3(9, 0, 5), 0);
     with->appendNode(btVector3(5, 5, 5), 1);
@@ -209,17 +209,17 @@ TEST_P(Creation, UnusedNodesStandStillAndTheBodyMovesAsWithoutThem)
     for (int i = 0; i < plain.m_nodes.size(); ++i)
         furthest = std::max(furthest, double((plain.m_nodes[i].m_x - body.m_nodes[i + 1].m_x).length()));
     EXPECT_LT(furthest, 1e-3);
-    EXPECT_NEAR(impulseOn(fem, body).z, impulseOn(fem, plain).z, 1e-2 * impulseOn(fem, plain).z);  // as heavy
+    EXPECT_NEAR(impulseOn(fem, body).z, impulseOn(fem, plain).z, 1e-2 * impulseOn(fem, plain).z);  // of equal weight
 
-    body.translate(btVector3(0, 0, 3));  // takes them along
+    body.translate(btVector3(0, 0, 3));  // moves the unused nodes, too
     world.step();
     EXPECT_LT((body.m_nodes[0].m_x - places[0] - btVector3(0, 0, 3)).length(), 1e-5);
-    body.m_nodes[0].m_x.setY(2);  // they go where they are written
+    body.m_nodes[0].m_x.setY(2);  // they stay where they are written
     world.step();
     EXPECT_NEAR(body.m_nodes[0].m_x.y(), 2, 1e-6);
 }
 
-// Every detail turns its factor by other rotations.
+// Each detail level warps its factor by other rotations.
 TEST_P(Creation, UnusedNodesDoNoHarmInAnyDetailOrPrecision)
 {
     for (const btScalar tolerance : {btScalar(1e-3), btScalar(1e-6)})
@@ -248,7 +248,7 @@ TEST_P(Creation, UnusedNodesGetNoMassFromADensity)
     fem.setMaterial(&body, material);
     world.step();
     EXPECT_EQ(fem.stepReport(&body).m_flags, BT_FEM_UNUSED_NODES);
-    EXPECT_NEAR(body.getTotalMass(), 192 + 7 + 1, 0.01);  // theirs are what they were
+    EXPECT_NEAR(body.getTotalMass(), 192 + 7 + 1, 0.01);  // the unused nodes' masses are kept
 }
 
 TEST_P(Creation, HelpersRejectUnusedNodes)
@@ -259,9 +259,9 @@ TEST_P(Creation, HelpersRejectUnusedNodes)
     EXPECT_THROW(btFemHelpers::createFromTetMesh(world.info(), x, 5, tet, 1), std::invalid_argument);
 }
 
-// --- Links that FEM bodies also carry ---
+// --- Links of FEM bodies ---
 
-// Their stiffness is the material's: springs, whose stiffness depends on the step and the iterations, add nothing.
+// The material gives the stiffness: link springs, whose stiffness depends on the step and the iterations, add nothing.
 TEST_P(Creation, LinksAreIgnoredBitForBit)
 {
     FemWorld world(GetParam());
@@ -276,7 +276,7 @@ TEST_P(Creation, LinksAreIgnoredBitForBit)
     body.appendLink(0, body.m_nodes.size() - 1);
     body.m_cfg.piterations = 20;
     world.step(30);
-    body.appendLink(1, body.m_nodes.size() - 2);  // while it runs
+    body.appendLink(1, body.m_nodes.size() - 2);  // during the run
     body.randomizeConstraints();
     world.step(30);
     EXPECT_TRUE(fem.isFem(&body));

@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A unit cube, 1 m3, on a floor that feels what it weighs.
+/// A unit cube, 1 m3, on a floor that measures its weight.
 class Scales
 {
 public:
@@ -32,7 +32,7 @@ public:
     SoftWorld& world() { return m_world; }
     void put() { m_world.addSoft(m_body); }
 
-    /// What the floor carries, once all is still, over g [kg].
+    /// Contact force on the floor at rest over g [kg].
     double weigh()
     {
         m_world.step(240);
@@ -49,7 +49,7 @@ struct Setter
     const char* m_name;
     std::function<void(btSoftBody&)> m_set;
     double m_weighs;  // [kg]
-    int m_flags = 0;  // when it is set
+    int m_flags = 0;  // before it is set
 };
 
 class MassSetter : public EachWorldWith<Setter>
@@ -64,7 +64,7 @@ TEST_P(MassSetter, SetsTheWeightOfTheBody)
     scales.world().step();
     EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags, value().m_flags);
     EXPECT_NEAR(scales.weigh(), value().m_weighs, 1e-3 * value().m_weighs);
-    EXPECT_NEAR(massOf(scales.body()), value().m_weighs, 1e-4 * value().m_weighs);  // and its nodes say so
+    EXPECT_NEAR(massOf(scales.body()), value().m_weighs, 1e-4 * value().m_weighs);  // and the node masses agree
 }
 
 TEST_P(MassSetter, SetsTheWeightOfTheBodyInMidRun)
@@ -76,7 +76,7 @@ TEST_P(MassSetter, SetsTheWeightOfTheBodyInMidRun)
     scales.world().step();
     const int about = BT_FEM_STALE_FACTOR | BT_FEM_REFACTORED | BT_FEM_REFACTOR_PAYS;
     EXPECT_EQ(scales.fem().stepReport(&scales.body()).m_flags & ~about, value().m_flags);
-    EXPECT_NEAR(scales.weigh(), value().m_weighs, 0.02 * value().m_weighs);  // of what it has sunk in
+    EXPECT_NEAR(scales.weigh(), value().m_weighs, 0.02 * value().m_weighs);  // minus the penetration
     EXPECT_NEAR(scales.weigh(), massOf(scales.body()), 1e-3 * massOf(scales.body()));
 }
 
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      // Bullet adds every element's volume four times.
                                      Setter{"setVolumeDensityIsFourTimesTheDensity",
                                             [](btSoftBody& b) { b.setVolumeDensity(300); }, 1200},
-                                     // Bullet leaves inner nodes without mass.
+                                     // Bullet gives inner nodes no mass.
                                      Setter{"setTotalMassFromFaces", [](btSoftBody& b) { b.setTotalMass(300, true); },
                                             300, BT_FEM_BAD_MASS},
                                      Setter{"setTotalDensity", [](btSoftBody& b) { b.setTotalDensity(300); }, 300,
@@ -108,7 +108,7 @@ class Masses : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Masses, eachWorld(), nameOfWorld);
 
-// Inner nodes move like the others, not like massless ones.
+// Inner nodes accelerate like the others, not like massless ones.
 TEST_P(Masses, FaceMassesAreDistributedByVolume)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
@@ -121,7 +121,7 @@ TEST_P(Masses, FaceMassesAreDistributedByVolume)
         EXPECT_NEAR(1 / double(cube.m_nodes[i].m_im), before[i] / 2, 1e-4 * before[i]) << i;
 }
 
-// Without faces Bullet makes NaN of all masses, and what was asked for is lost.
+// Without faces Bullet makes all masses NaN, and the requested mass is lost.
 TEST_P(Masses, MissingFacesGiveTheMassesOfWater)
 {
     Scales scales(GetParam());
@@ -162,7 +162,7 @@ struct Hanging
     btSoftBody* m_body;
 };
 
-// The clamped bar's free nodes have 15/16 of it all: m g L / (2 E A) with the whole.
+// The clamped bar's free nodes have 15/16 of its mass; its sag is m g L / (2 E A) with the whole mass.
 TEST_P(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
 {
     Hanging bar(GetParam());
@@ -175,7 +175,7 @@ TEST_P(Masses, SetWhilePinnedAreWeighedAndThePinsStay)
         EXPECT_EQ(bar.m_body->m_nodes[i].m_im == 0, bar.m_body->m_nodes[i].m_x.z() > -1e-3) << i;
 }
 
-// Let go with another mass: it falls freely, with that mass, in its own shape.
+// A released node with another mass: the body falls freely, with that mass and its own shape.
 TEST_P(Masses, ANodeReleasedWithANewMassHasThatMass)
 {
     Hanging bar(GetParam());

@@ -37,7 +37,7 @@ std::string shareName(double share)
     return "kMT" + std::to_string(int(std::lround(100 * share))) + "Percent";
 }
 
-// A body of next to no stiffness goes the way that nodes without springs go in Bullet, to the rounding of floats.
+// A body of nearly zero stiffness moves as free nodes in Bullet do, to the rounding of floats.
 TEST_P(Matching, MovesNodesTheSameShareOfTheWayAsBulletDoes)
 {
     btDefaultSoftBodySolver plain;
@@ -72,7 +72,7 @@ TEST_P(Matching, MovesNodesTheSameShareOfTheWayAsBulletDoes)
     }
 }
 
-// It falls, flies and spins as without it.
+// It falls, flies and spins as without pose matching.
 TEST_P(Matching, LeavesRigidMotionAndMomentumAlone)
 {
     FemWorld world(worldClass());
@@ -104,7 +104,7 @@ TEST_P(Matching, LeavesTheWeightToTheFloor)
     EXPECT_LT(fastestNode(cube), 1e-3);
 }
 
-// Pinned nodes hold the pose: what hangs from them sags by g h^2 (1 - kMT) / kMT, where it is soft, as in Bullet.
+// Pinned nodes hold the pose: a soft body below them sags by g h^2 (1 - kMT) / kMT, as in Bullet.
 TEST_P(Matching, HoldsAPinnedBodyUpAsBulletDoes)
 {
     FemWorld world(worldClass());
@@ -136,7 +136,7 @@ class Pose : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Pose, eachWorld(), nameOfWorld);
 
-// A pendulum: the pose goes with the swing, and does not brake it.
+// A pendulum: the pose rotates with the swing without damping it.
 TEST_P(Pose, DoesNotBrakeAPendulum)
 {
     double height[2];
@@ -145,7 +145,7 @@ TEST_P(Pose, DoesNotBrakeAPendulum)
         FemWorld world(GetParam(), implicitEuler());
         btFemSoftBodySolver& fem = world.fem();
         btSoftBody* made = makeCube(world);
-        fem.setMaterial(made, softMaterial(btScalar(1e8)));  // the pose stiffens it: as good as rigid with and without
+        fem.setMaterial(made, softMaterial(btScalar(1e8)));  // nearly rigid with and without the pose
         made->setMass(0, 0);
         made->setPose(false, true);
         made->m_cfg.kMT = k == 0 ? btScalar(0) : btScalar(0.3);
@@ -157,11 +157,11 @@ TEST_P(Pose, DoesNotBrakeAPendulum)
     EXPECT_NEAR(height[1], height[0], 0.01 * std::fabs(height[0]));
 }
 
-/// Momenta about (-0.5, -0.5, -0.5), where a cube hangs on a hinge along z, or on one node.
+/// Momenta about (-0.5, -0.5, -0.5), where a cube is fixed to a hinge along z, or at one node.
 class HungCube : public testing::TestWithParam<int>
 {
 protected:
-    /// What a stone that hits the far side leaves of its momentum about the pins in cube and stone.
+    /// Share of a stone's angular momentum about the pins that cube and stone keep after the stone hits the far side.
     Vec3 keptShare(btScalar kMT) const
     {
         btFemSoftBodySolver fem;
@@ -203,7 +203,7 @@ TEST_P(HungCube, KeepsImpactMomentumForAnyPoseMatching)
     for (const double kMT : {0.0, 0.3, 0.9})
     {
         const Vec3 lost = keptShare(btScalar(kMT));
-        EXPECT_LT(GetParam() == 1 ? norm(lost) : std::fabs(lost.z), 0.01) << kMT;  // the hinge takes what is across it
+        EXPECT_LT(GetParam() == 1 ? norm(lost) : std::fabs(lost.z), 0.01) << kMT;  // the hinge bears the rest
     }
 }
 
@@ -255,7 +255,7 @@ public:
         return double(m_body->getVolume()) - 1;
     }
 
-    /// The pressure that forces n_i a_i q amount to, over q: their virial. It, and no more, makes the mean strain.
+    /// The virial pressure of forces n_i a_i q, over q; it alone determines the mean strain.
     double virialShare() const
     {
         Vec3 middle = centerOf(*m_body);
@@ -283,7 +283,7 @@ class VolumeConservation : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, VolumeConservation, eachWorld(), nameOfWorld);
 
-// Linear expansion is p (1 - 2 nu) / E, and that of the volume three times as much.
+// Linear expansion is p (1 - 2 nu) / E, and volume expansion three times that.
 TEST_P(Pressure, ExpandsACubeByItsFormula)
 {
     FreeCube cube(GetParam());
@@ -304,7 +304,7 @@ TEST_P(VolumeConservation, StiffensTheCubeAgainstPressureByItsFormula)
     const double expansion = cube.expansion(), V = cube.body().getVolume(), share = cube.virialShare();
     const double expected = share * 8000 / V / (cube.bulkModulus() + share * 1e6);
     EXPECT_NEAR(expansion, expected, 0.01 * expected);
-    EXPECT_LT(expected, 0.8 * share * 8000 / V / cube.bulkModulus());  // it does something
+    EXPECT_LT(expected, 0.8 * share * 8000 / V / cube.bulkModulus());  // it has an effect
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void stretch(btSoftBody& body, const btVector3& by)
     for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x *= by;
 }
 
-// Lengths of all elements' edges: the same for a body that was turned.
+// Lengths of all elements' edges, which do not change when a body is rotated.
 std::vector<double> lengthsOf(const btSoftBody& body)
 {
     std::vector<double> lengths;
@@ -45,10 +45,11 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
     return largest;
 }
 
-// --- Copies share what is the same, and nothing else ---
+// --- Sharing between copies ---
 
-// A body that has left the world is known until the next step. Who becomes FEM before that shares its factor and rest
-// shape if it is a copy of what that was; not if it has a shape of its own, nor what that one has become.
+// A body that has left the world is known until the next step. A body that becomes FEM before that shares the removed
+// one's factor and rest shape if it is a copy of that body's original shape; it does not if its shape differs, or if it
+// is a copy of the changed shape.
 TEST(RestShape, BodyFollowingARemovedCopyHasItsOwn)
 {
     for (const bool isPrepared : {true, false})
@@ -59,7 +60,7 @@ TEST(RestShape, BodyFollowingARemovedCopyHasItsOwn)
             btSoftBody& first = world.addSoft(makeElasticCube(world));
             world.step();
             world.world().removeSoftBody(&first);
-            first.scale(btVector3(2, 1, 1));  // its rest shape, too
+            first.scale(btVector3(2, 1, 1));  // changes its rest shape, too
             btSoftBody* made = makeElasticCube(world);
             const btScalar scale = btScalar(1 + growth);
             made->scale(btVector3(scale, scale, scale));
@@ -102,7 +103,7 @@ TEST_P(RestShape, EarlyDeformedBodySpringsBackToItsElementMatrices)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, 0);
 }
 
-// A body that was only moved is not stirred by the rounding of its matrices.
+// Rounding of its matrices does not disturb a body that was only moved.
 TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
@@ -117,7 +118,7 @@ TEST_P(RestShape, ABodyMovedBeforeItsFirstStepStandsStill)
     EXPECT_LT(fastestNode(cube), 1e-12);
 }
 
-// Bodies assembled with appendTetra have matrices of zero: their shape in the first step is the one that they keep.
+// Bodies assembled with appendTetra have zero matrices: their shape in the first step becomes the rest shape.
 TEST_P(RestShape, IsThePresentShapeWithoutElementMatrices)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
@@ -129,7 +130,7 @@ TEST_P(RestShape, IsThePresentShapeWithoutElementMatrices)
     EXPECT_LT(fastestNode(cube), 1e-12);
 }
 
-// Matrices that nobody set, or that do not fit to each other, are not believed.
+// Matrices that were never set, or that are inconsistent, are ignored.
 TEST_P(RestShape, InconsistentElementMatricesAreIgnored)
 {
     for (const int kind : {0, 1, 2})
@@ -140,7 +141,7 @@ TEST_P(RestShape, InconsistentElementMatricesAreIgnored)
         btSoftBody* made = makeElasticCube(world);
         btSoftBody::Tetra& tetra = made->m_tetras[7];
         if (kind == 0) tetra.m_Dm_inverse[1][2] = std::numeric_limits<btScalar>::quiet_NaN();
-        if (kind == 1) tetra.m_Dm_inverse = tetra.m_Dm_inverse.scaled(btVector3(-1, 1, 1));  // turned inside out
+        if (kind == 1) tetra.m_Dm_inverse = tetra.m_Dm_inverse.scaled(btVector3(-1, 1, 1));  // mirrored
         if (kind == 2)  // a turned and larger neighbour would have to overlap
         {
             tetra.m_Dm_inverse = tetra.m_Dm_inverse.scaled(btVector3(btScalar(0.5), 1, 1));
@@ -153,7 +154,7 @@ TEST_P(RestShape, InconsistentElementMatricesAreIgnored)
     }
 }
 
-// Where fromRest leads nodes of a body that was deformed when it became FEM: to its rest shape, laid over it.
+// fromRest of a body that was deformed when it became FEM leads from its rest shape, fitted to the body.
 TEST_P(RestShape, TransformsFromRestStartFromTheElementMatrices)
 {
     FemWorld world(GetParam(), btVector3(0, 0, 0));
@@ -179,7 +180,7 @@ TEST_P(RestShape, TransformsFromRestStartFromTheElementMatrices)
 
 // --- scale() and initializeDmInverse() at any time ---
 
-/// A bar that hangs from z = 0, 2 m long, 0.4 m thick, without lateral contraction, so that formulas hold to a percent.
+/// A bar pinned at z = 0, 2 m long, 0.4 m thick, with nu = 0, so that formulas hold to a percent.
 class HangingBar
 {
 public:
@@ -204,8 +205,8 @@ public:
     double length() const { return -lowestHeight(*m_body); }
     void settle() { m_world.step(400); }
 
-    /// By how much a bar of this length [m] and cross-section [m2] gets longer under its own weight: m g L / (2 E A),
-    /// where the mass includes the clamped ends'.
+    /// Elongation of a bar of this length [m] and cross-section [m2] under its own weight: m g L / (2 E A), with the
+    /// mass of the clamped ends.
     double sag(double length, double area, double mass) const
     {
         return mass * kGravity * length / (2 * m_material.m_youngModulus * area);
@@ -217,13 +218,13 @@ private:
     btFemMaterial m_material;
 };
 
-constexpr double kBarMass = 320;  // [kg]; 8 x its volume once scaled to twice the size, if that set masses
+constexpr double kBarMass = 320;  // [kg]; 8 x its volume after scaling to twice the size, if that sets masses
 
 class ScaledBar : public EachWorldWith<double>
 {
 };
 
-// Twice as long and four times as thick, of the same mass: half the sag, from the hanging shape as rest shape.
+// Twice as long and four times the section, of equal mass: half the sag, with the sagged shape as rest shape.
 TEST_P(ScaledBar, HasTheStiffnessOfTheLargerBodyAndItsOldMass)
 {
     const double filled = value();
@@ -241,7 +242,7 @@ TEST_P(ScaledBar, HasTheStiffnessOfTheLargerBodyAndItsOldMass)
     EXPECT_EQ(massOf(bar.body()), mass);
     EXPECT_EQ(bar.fem().stepReport(&bar.body()).m_flags, 0);
 
-    bar.fem().setMaterial(&bar.body(), bar.material());  // the density sets masses once more: those of the larger body
+    bar.fem().setMaterial(&bar.body(), bar.material());  // the density sets masses again, now of the larger body
     EXPECT_NEAR(massOf(bar.body()), 8 * mass, 0.01 * 8 * mass);
     bar.settle();
     EXPECT_NEAR(bar.length() - scaled, 8 * second, 0.02 * 8 * second);
@@ -305,7 +306,7 @@ TEST_P(RestShape, AMirroredBodyIsTheMirroredOne)
     EXPECT_EQ(fem.stepReport(&cube).m_flags, BT_FEM_TURNED_TETS);
 }
 
-// What no longer makes a shape is not taken: the old one stays.
+// Invalid matrices are ignored: the old rest shape stays.
 TEST_P(RestShape, SpoiltElementMatricesInMidRunChangeNothing)
 {
     HangingBar bar(GetParam());
@@ -332,7 +333,7 @@ TEST_P(RestShape, CopiesScaledAlikeShareTheirFactor)
     EXPECT_EQ(fem.stepReport(&a).m_factorSeconds, fem.stepReport(&b).m_factorSeconds);
 }
 
-// Asleep on the floor under its own weight it is as it was made less its sag; that taken as rest shape, it sags again.
+// The sleeping body's rest shape becomes its present shape, shortened by its weight, so that it sags again.
 TEST_P(RestShape, ItsChangeWakesASleepingBody)
 {
     FemWorld world(GetParam());

@@ -20,7 +20,7 @@ class Transforms : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Transforms, eachWorld(), nameOfWorld);
 
-// Lifted by translate() while it sleeps on the floor, it wakes and falls back.
+// A body asleep on the floor is lifted by translate(): it wakes and falls back.
 TEST_P(Transforms, ASleepingBodyWakesAndFalls)
 {
     FemWorld world(GetParam());
@@ -38,7 +38,7 @@ TEST_P(Transforms, ASleepingBodyWakesAndFalls)
     EXPECT_NEAR(centerOf(cube).z, asleep, 1e-3);
 }
 
-// Turned by a quarter about the vertical, pins and all: it hangs as it did.
+// Rotated by 90 degrees about the vertical together with its pins, the body keeps its shape.
 TEST_P(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
 {
     btFemSolverInfo info;
@@ -62,7 +62,7 @@ TEST_P(Transforms, APinnedBodyTurnsWithItsPinsAndStaysAsItHung)
     for (int k = 0; k < 60; ++k)
     {
         world.step();
-        EXPECT_LT(fastestNode(beam), 0.01) << k;  // no jolt: pins that went there in a step would run 100 m/s
+        EXPECT_LT(fastestNode(beam), 0.01) << k;  // pins that moved there within a step would have 100 m/s
     }
     for (int i = 0; i < beam.m_nodes.size(); ++i) EXPECT_LT((beam.m_nodes[i].m_x - expected[i]).length(), 1e-4) << i;
 }

@@ -15,7 +15,8 @@ namespace bullet_fem
 namespace
 {
 
-/// Scenes that nobody should build: nothing crashes, no NaN reaches a body. With the swap alone and coupled.
+/// Scenes with invalid input: nothing crashes, and no NaN reaches a body. In staggered (swap) and in monolithic
+/// coupling.
 class BadContactInput : public testing::TestWithParam<Coupling>
 {
 protected:
@@ -53,7 +54,7 @@ protected:
         }
     }
 
-    // On a ground at z = 0 with this margin [m].
+    // Expects a tetrahedron to come to rest on a ground at z = 0 with this margin [m].
     void expectATetrahedronToComeToRest(double margin)
     {
         btSoftBody& body = addTetrahedron(0.3);
@@ -63,7 +64,7 @@ protected:
         m_world.deleteSoft(body);
     }
 
-    // Calls a function within every step, before or after Bullet's part.
+    // Calls a function within each step, before or after Bullet's part.
     void callInStep(bool before, std::function<void()> function)
     {
         s_tick = std::move(function);
@@ -97,7 +98,7 @@ TEST_P(BadContactInput, ATetrahedronFallsOnAMesh)
     shape->setMargin(btScalar(0.01));
     btRigidBody& ground = m_world.addRigid(shape);
     expectATetrahedronToComeToRest(0.01);
-    m_world.deleteRigid(ground);  // before the mesh that it looks at
+    m_world.deleteRigid(ground);  // before the mesh that it refers to
 }
 
 TEST_P(BadContactInput, TetrahedraFallOnEachOther)
@@ -183,7 +184,7 @@ TEST_P(BadContactInput, SoftBodyInContactIsDeletedBetweenSteps)
     EXPECT_NEAR(lowestHeight(upper), 0, 0.01);
 }
 
-// Bullet makes a body static whose mass is set to 0; it does not say that the body is in the world.
+// Bullet makes a body static when its mass is set to 0, although the body is in the world.
 TEST_P(BadContactInput, RigidBodyBecomingStaticDoesNoHarm)
 {
     m_world.addFloorBox();
@@ -212,7 +213,7 @@ TEST_P(BadContactInput, HugeOrTinyRigidMassDoesNoHarm)
     }
 }
 
-// Bullet's own gyroscopic term overflows and makes the rigid body's spin NaN, whatever it touches.
+// Bullet's gyroscopic term overflows and makes the rigid body's spin NaN, with or without contacts.
 TEST_P(BadContactInput, ARigidBodyOfNearlyInfiniteMassDoesNotReachTheSoftBody)
 {
     m_world.addFloorBox();

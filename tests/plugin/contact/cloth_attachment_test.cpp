@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Nodes of cloth that are tied to FEM bodies.
+//
+// Nodes of cloth attached to FEM bodies.
 #include <stdexcept>
 #include <string>
 
@@ -11,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-// A cloth beside a pinned block, two of its corners tied to nodes of the block's upper rim.
+// A cloth beside a pinned block, two of its corners attached to nodes of the block's upper rim.
 class ClothAttachments : public testing::TestWithParam<ClothWorldKind>
 {
 protected:
@@ -72,7 +73,7 @@ TEST_P(ClothAttachments, HoldAClothsWeight)
             EXPECT_EQ(report.m_object, m_cloth);
             force -= report.m_impulse.z() / double(kStep) / frames;
         }
-        force -= scene.fem().contactForce(m_block, m_cloth).z() / frames;  // it may lie against the block
+        force -= scene.fem().contactForce(m_block, m_cloth).z() / frames;  // the cloth may be in contact with the block
         for (const Held& held : m_held)
             EXPECT_LT((m_cloth->m_nodes[held.m_corner].m_x - m_block->m_nodes[held.m_node].m_x).length(), 2e-3);
     }
@@ -123,7 +124,8 @@ TEST_P(ClothAttachments, EndWithDetachOrTheCloth)
     }
 }
 
-// A state has neither the cloth nor what ties it: both are there still, and the cloth's nodes are put back.
+// A saved state contains neither the cloth nor its attachments: both still exist, and the test restores the cloth's
+// nodes.
 TEST_P(ClothAttachments, StayWhenAStateIsRestored)
 {
     ClothWorld scene(GetParam());
@@ -153,7 +155,7 @@ TEST_P(ClothAttachments, StayWhenAStateIsRestored)
     }
     scene.world().step(10);
     EXPECT_EQ(scene.fem().anchors(m_block).size(), 2);
-    // Springs of a deformable world remember more than nodes.
+    // Springs of a deformable world have more state than the nodes.
     EXPECT_TRUE(GetParam() == ClothWorldKind::deformable || first == bitsOf(*m_block));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// FEM bodies and Bullet's cloth: which ones touch, what is told of it, bits, and bodies that come and go.
+//
+// FEM bodies and Bullet's cloth: collision filters, reports, determinism, and bodies that are added and removed.
 #include <cstring>
 
 #include "plugin/scenes/cloth_scene.h"
@@ -10,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-// A cloth over a pinned block, and what touches in this step or has a moment ago.
+// A cloth over a pinned block, with the set of pairs in contact in this and in recent steps.
 class ClothRules : public testing::TestWithParam<ClothWorldKind>
 {
 protected:
@@ -39,8 +40,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, ClothRules, eachClothWorld(), [](const auto& suite) { return nameOf(suite.param); });
 
-// But the deformable one, where Bullet's own solver spreads what is no number, and its springs remember more than
-// nodes.
+// Without the deformable world, where Bullet's solver spreads NaN, and whose springs have more state than the nodes.
 class ClothRulesOfSoftWorlds : public ClothRules
 {
 };
@@ -115,7 +115,7 @@ TEST_P(ClothRules, ContactIsReported)
     EXPECT_EQ(scene.fem().touches(block)[0].m_state, btFemTouchState::ended);
 }
 
-// Bullet's islands wake what cloth comes near.
+// Bullet's islands wake bodies near moving cloth.
 TEST_P(ClothRules, SleepingBodyIsWoken)
 {
     ClothWorld scene(GetParam());
@@ -148,7 +148,7 @@ TEST_P(ClothRules, BodiesInContactMayBeRemoved)
     }
 }
 
-// Programs tear cloth.
+// A program tears the cloth.
 TEST_P(ClothRules, FacesInContactMayBeRemoved)
 {
     ClothWorld scene(GetParam());
@@ -216,7 +216,7 @@ TEST_P(ClothRules, HaveTheSameBitsForAnyNumberOfThreads)
     EXPECT_EQ(one, run(8));
 }
 
-// A state does not have cloth: a program puts back what its nodes are and how fast.
+// A saved state does not contain cloth: the program restores positions and velocities of its nodes.
 TEST_P(ClothRulesOfSoftWorlds, SavedStateContinuesWithRestoredClothNodes)
 {
     ClothWorld scene(GetParam());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// FEM bodies and Bullet's cloth and ropes: what carries what, momentum, friction.
+//
+// FEM bodies and Bullet's cloth and ropes: support, momentum, friction.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +19,7 @@ class ClothOnFemBodies : public testing::TestWithParam<ClothWorldKind>
 INSTANTIATE_TEST_SUITE_P(Worlds, ClothOnFemBodies, eachClothWorld(),
                          [](const auto& suite) { return nameOf(suite.param); });
 
-// But the deformable one, whose springs are forces of their own.
+// Without the deformable world, whose springs are separate forces.
 class ClothInSoftWorlds : public testing::TestWithParam<ClothWorldKind>
 {
 };
@@ -33,7 +34,7 @@ double highest(const btSoftBody& body)
     return height;
 }
 
-// Mean force of a cloth on a body over some frames: it swings.
+// Mean force of a swinging cloth on a body over some frames.
 Vec3 meanForce(ClothWorld& scene, const btSoftBody& body, const btSoftBody& cloth, int frames)
 {
     Vec3 sum;
@@ -70,14 +71,14 @@ TEST_P(ClothOnFemBodies, RestOnABlockWithTheirWeight)
         scene.world().step();
         EXPECT_LT(norm(vec3(scene.fem().contactForce(&block, &cloth)) - Vec3{0, 0, -weight}), 1e-3 * weight);
     }
-    EXPECT_GT(scene.fem().stepReport(&block).m_contacts, 121);  // nodes, and vertices of the block
+    EXPECT_GT(scene.fem().stepReport(&block).m_contacts, 121);  // nodes of the cloth, and vertices of the block
     EXPECT_LT(scene.fem().stepReport(&block).m_deepestPenetration, 1e-3);
     EXPECT_NEAR(lowestHeight(cloth), kClothMargin, 2e-3);
     EXPECT_NEAR(highest(cloth), kClothMargin, 2e-3);
     EXPECT_LT(fastestNode(cloth), 1e-2);
 }
 
-// Nodes beside the block hang on those upon it.
+// Nodes beside the ball hang from those above it.
 TEST_P(ClothOnFemBodies, HangOverABallAndWeighOnIt)
 {
     ClothWorld scene(GetParam());
@@ -91,7 +92,7 @@ TEST_P(ClothOnFemBodies, HangOverABallAndWeighOnIt)
     EXPECT_NEAR(meanForce(scene, ball, cloth, 120).z, -weight, 0.03 * weight);
     EXPECT_LT(lowestHeight(cloth), -0.1);
     for (int i = 0; i < cloth.m_nodes.size(); ++i)
-        EXPECT_GT(norm(vec3(cloth.m_nodes[i].m_x)), 0.3 * 0.97 + 0.5 * kClothMargin) << i;  // a polyhedron's faces
+        EXPECT_GT(norm(vec3(cloth.m_nodes[i].m_x)), 0.3 * 0.97 + 0.5 * kClothMargin) << i;  // the faces of a polyhedron
 }
 
 TEST_P(ClothOnFemBodies, FallOnAFreeBallAndPushIt)
@@ -128,7 +129,7 @@ TEST_P(ClothOnFemBodies, KeepMomentum)
     EXPECT_LT(least, -1);
 }
 
-// Bullet's links turn what they hold a little; without them there is contact alone.
+// Bullet's links exert a small torque on the held body; without links there is only contact.
 TEST_P(ClothInSoftWorlds, KeepsAngularMomentumButForBulletsSprings)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});
@@ -151,7 +152,7 @@ TEST_P(ClothInSoftWorlds, KeepsAngularMomentumButForBulletsSprings)
     EXPECT_LT(velocityOf(cloth).z, -0.3);
 }
 
-// Bullet's own rigid sphere of this mass hangs as low, or falls through (swap), and does so in a deformable world.
+// A Bullet rigid sphere of equal mass sags as far, or falls through with the swap, also in a deformable world.
 TEST_P(ClothOnFemBodies, CarryABallBetweenPinnedCorners)
 {
     ClothWorld scene(GetParam());
@@ -211,7 +212,7 @@ TEST_P(ClothOnFemBodies, RopesHangOverABox)
     EXPECT_LT(lowestHeight(rope), -0.1);
 }
 
-// mu is the larger kDF: it holds up to a slope of mu, and beyond it slides with g (sin - mu cos).
+// mu is the larger kDF: the cloth sticks up to a slope of mu, and beyond it slides with g (sin - mu cos).
 TEST_P(ClothOnFemBodies, StickAndSlideByCoulombsLaw)
 {
     const double slope = 20 * SIMD_RADS_PER_DEG, sine = std::sin(slope), cosine = std::cos(slope);
@@ -234,7 +235,7 @@ TEST_P(ClothOnFemBodies, StickAndSlideByCoulombsLaw)
     EXPECT_NEAR(slide(0.25, 36), kGravity * (sine - 0.25 * cosine) * time, 0.03 * kGravity * sine * time);
 }
 
-// 0.3 m a step, through what is 0.2 m thick.
+// 0.3 m a step, through a thickness of 0.2 m.
 TEST_P(ClothOnFemBodies, FastOnesDoNotPassEachOther)
 {
     ClothWorld scene(GetParam(), {0, 0, 0});

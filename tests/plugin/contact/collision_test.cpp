@@ -21,8 +21,8 @@ namespace
 struct CollisionCase
 {
     std::string m_name;
-    bool m_softBall;     // or a cube
-    bool m_rigidSphere;  // or a cube
+    bool m_softBall;     // else a cube
+    bool m_rigidSphere;  // else a cube
     double m_massRatio;  // rigid over soft
     bool m_offCentre;    // and spinning
 };
@@ -46,7 +46,7 @@ class Collision : public testing::TestWithParam<CollisionCase>
 {
 };
 
-// Rigid spheres and cubes only: the implicit gyroscopic term that Bullet adds to other bodies does not conserve.
+// Rigid spheres and cubes only: Bullet's implicit gyroscopic term for other bodies does not conserve momentum.
 TEST_P(Collision, ConservesMomentumAndEndsInSeparation)
 {
     const CollisionCase& scene = GetParam();

@@ -20,7 +20,7 @@ namespace
 
 constexpr double kSize = 1;  // edge of the cube [m]
 
-/// A world that keeps the parts of concave shapes.
+/// A world that owns the data of concave shapes.
 class ConcaveWorld
 {
 public:
@@ -41,12 +41,12 @@ public:
         return m_world.addSoft(cube);
     }
 
-    std::vector<ConcaveShape> m_shapes;  // outlive the world
+    std::vector<ConcaveShape> m_shapes;  // must outlive the world
     btFemSoftBodySolver m_fem;
     SoftWorld m_world;
 };
 
-/// A cube of cells blown up to a ball of radius 0.5 m.
+/// A cube of cells mapped to a ball of radius 0.5 m.
 TetMesh makeBall(const Vec3& center)
 {
     const TetMesh cube = makeBox({1, 1, 1}, {5, 5, 5}, {-0.5, -0.5, -0.5});
@@ -62,7 +62,7 @@ TetMesh makeBall(const Vec3& center)
 class RestOnSheet : public testing::TestWithParam<NamedConcave>
 {
 protected:
-    // Its origin's height taken off; upside down it is wound the other way.
+    // Shifted by the height of its origin; upside down it has the opposite winding.
     static btRigidBody& addSheet(ConcaveWorld& scene, const GridSettings& grid = {}, bool upsideDown = false)
     {
         RigidSettings place;
@@ -93,7 +93,7 @@ TEST_P(RestOnSheet, IsCarriedToItsWeightAndDoesNotSinkIn)
     EXPECT_EQ(scene.m_fem.stepReport(&cube).m_flags, 0);
 }
 
-/// Ridges, corners and slopes under the cube.
+/// Ridges, corners and slopes are in contact with the cube.
 TEST_P(RestOnSheet, IsCarriedByHillsAndValleys)
 {
     ConcaveWorld scene;
@@ -115,7 +115,7 @@ TEST_P(RestOnSheet, IsCarriedByHillsAndValleys)
     EXPECT_EQ(scene.m_fem.stepReport(&cube).m_flags, 0);
 }
 
-/// Heights of a ball, 10 cm above a ground at first and falling at 10 m/s.
+/// Heights of a ball that starts 10 cm above a ground at 10 m/s downwards.
 std::vector<double> heightsOfABall(ConcaveWorld& scene)
 {
     btSoftBody* ball = btFemHelpers::createFromTetMesh(scene.m_world.info(), makeBall({0, 0, 0.6}));
@@ -153,7 +153,7 @@ TEST_P(RestOnSheet, ABallAtTenMetresASecondBouncesAsOnAPlane)
 INSTANTIATE_TEST_SUITE_P(Shapes, RestOnSheet, testing::ValuesIn(concaveShapes()),
                          [](const auto& scene) { return scene.param.m_name; });
 
-/// A cube on a slope of 20,000 triangles, wound at random.
+/// A cube on a slope of 20,000 triangles with random winding.
 class SheetIncline : public testing::TestWithParam<bool>
 {
 };

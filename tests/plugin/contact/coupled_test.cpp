@@ -22,14 +22,14 @@ struct SlideCase
 {
     double m_steepness;  // tan(slope) / mu
     double m_youngModulus;
-    int m_frequency;  // steps a second
+    int m_frequency;  // steps per second
 };
 
 class RigidSlide : public testing::TestWithParam<SlideCase>
 {
 };
 
-// Coupled: a rigid box on a slab that falls towards +x, its lower face held.
+// A rigid box on a slab inclined downwards to +x, with a fixed lower face, in monolithic coupling.
 TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
 {
     const SlideCase& scene = GetParam();
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Slopes, RigidSlide, testing::ValuesIn(slideCases()),
                                     std::to_string(scene.param.m_frequency) + "Hz";
                          });
 
-// The rigid solver has solved the cube's contact when this callback writes.
+// The rigid solver has already solved the cube's contact when this callback changes the velocity.
 void kickOnce(btDynamicsWorld* world, btScalar)
 {
     auto* cube = static_cast<btSoftBody*>(world->getWorldUserInfo());
@@ -120,7 +120,7 @@ TEST(CoupledStep, TakesOverVelocitiesOfATickCallback)
     EXPECT_NEAR(velocityOf(cube).x, 1, 1e-3);
 }
 
-// The anchored body's bounds are far from the cube's, so it is in an island without FEM bodies.
+// The anchored body's bounds are far from the cube's, so that it is in an island without FEM bodies.
 TEST(CoupledStep, HandsReactionsToABodyOfAnotherIsland)
 {
     btFemSoftBodySolver fem;

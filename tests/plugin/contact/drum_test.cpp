@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double kDrumRadius = 1, kDrumHalfLength = 0.6;  // of the drum [m]
-constexpr double kDrumSpin = 1.5;                         // of it [rad/s]
+constexpr double kDrumSpin = 1.5;                         // its spin [rad/s]
 
 double facetAngle(int facets)
 {
@@ -48,7 +48,7 @@ ConcaveShape makeDrum(int facets)
     return shape;
 }
 
-// How far a point is beyond the wall of a drum that has turned by an angle [m].
+// Distance of a point beyond the wall of a drum that is rotated by an angle [m].
 double beyond(const btVector3& point, int facets, double turned)
 {
     const double facet = facetAngle(facets);
@@ -64,10 +64,11 @@ class Drum : public testing::TestWithParam<DrumParameters>
 {
 };
 
-// Four boxes that start by `aside` [m] from their places: how far their nodes get beyond the wall in six seconds [m].
+// Maximum distance of nodes beyond the wall within six seconds, for four boxes that start `aside` [m] from their places
+// [m].
 double deepestInDrum(Coupling coupling, int facets, double aside)
 {
-    ConcaveShape shape = makeDrum(facets);  // outlives the world
+    ConcaveShape shape = makeDrum(facets);  // must outlive the world
     btFemSoftBodySolver fem;
     SoftWorld world(fem, coupling);
     btRigidBody& drum = world.addRigid(shape.m_parts.back().release());
@@ -100,7 +101,7 @@ double deepestInDrum(Coupling coupling, int facets, double aside)
     return deepest;
 }
 
-// What tumbles in a drum slides over its edges by 2 to 3 cm a step. How deep is a matter of chance: of 36 starts in a
+// Tumbling bodies slide over the drum's edges by 2 to 3 cm a step. Penetration is a matter of chance: of 36 starts in a
 // drum of eight facets half were below 2.8 mm, the worst at 5.9 mm.
 TEST_P(Drum, KeepsTumblingBodiesInside)
 {
@@ -108,7 +109,7 @@ TEST_P(Drum, KeepsTumblingBodiesInside)
     double deepest[3];
     for (int k = 0; k < 3; ++k) deepest[k] = deepestInDrum(coupling, facets, 1e-3 * k);
     std::sort(std::begin(deepest), std::end(deepest));
-    EXPECT_GT(deepest[0], 0) << "nothing touched the drum";
+    EXPECT_GT(deepest[0], 0) << "no contact with the drum";
     EXPECT_LT(deepest[1], facets < 24 ? 0.004 : 0.0025);
     EXPECT_LT(deepest[2], 0.008);
 }

@@ -31,7 +31,7 @@ btSoftBody& addBall(FemWorld& world, const btVector3& center)
     return world.addSoft(ball);
 }
 
-// What graze nothing but a wall's surface, or each other's, feel impulses of rounding all the way down.
+// Bodies that graze a wall or each other receive impulses of rounding size along the whole fall.
 TEST(Flush, BallsGrazingAWallAndEachOtherLandOnTheFloor)
 {
     FemWorld world(WorldClass::softRigid);
@@ -49,12 +49,12 @@ TEST(Flush, BallsGrazingAWallAndEachOtherLandOnTheFloor)
     }
 }
 
-// Cubes without gaps between them.
+// A lattice of cubes without gaps.
 struct Lattice
 {
     std::array<int, 3> m_counts;  // of cubes along x, y, z
     double m_youngModulus;        // [Pa]
-    bool m_walled;                // walls touch it on all sides
+    bool m_walled;                // with walls on all sides
 };
 
 void PrintTo(const Lattice& lattice, std::ostream* stream)
@@ -87,7 +87,7 @@ class LatticeOfCubes : public testing::TestWithParam<std::tuple<Coupling, Lattic
 {
 };
 
-// As they fall together they close by nothing but rounding.
+// The cubes fall together and approach each other by rounding only.
 TEST_P(LatticeOfCubes, LandsOnTheFloor)
 {
     const auto& [coupling, lattice] = GetParam();
@@ -117,10 +117,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 struct Jam
 {
-    int m_cells;    // of a cube's edge; fine cubes take longer
+    int m_cells;    // along a cube's edge; fine cubes take longer
     double m_turn;  // beyond 45 degrees [rad]
     Coupling m_coupling = Coupling::coupled;
-    bool m_hasBall = false;  // a rigid one on the cubes
+    bool m_hasBall = false;  // with a rigid ball on the cubes
     double m_damping = 1;    // of the steps [-]
 };
 
@@ -130,14 +130,14 @@ void PrintTo(const Jam& jam, std::ostream* stream)
             << (jam.m_hasBall ? ", under a ball" : "") << (jam.m_damping < 1 ? ", second order" : "");
 }
 
-constexpr double kThrown = 15;  // rounding alone makes it 3 to 8; what was thrown had hundreds and more [m/s]
+constexpr double kThrown = 15;  // rounding alone gives 3 to 8 m/s; a failure gave hundreds and more [m/s]
 
 class JamOfCubes : public testing::TestWithParam<Jam>
 {
 };
 
-// No program means this: cubes 4 cm deep in walls and in each other, and no room to part. W is wrong for what is
-// strained so much, and rounds lead now nearer, now away.
+// An unrealistic state: cubes 4 cm deep in walls and in each other, without room to separate. W is inaccurate at such
+// strains, and outer iterations do not converge monotonically.
 TEST_P(JamOfCubes, IsNotThrownApart)
 {
     const Jam& jam = GetParam();
@@ -159,7 +159,7 @@ TEST_P(JamOfCubes, IsNotThrownApart)
 INSTANTIATE_TEST_SUITE_P(Flush, JamOfCubes,
                          testing::Values(Jam{2, 0}, Jam{2, 2e-3}, Jam{2, 4e-3}, Jam{2, 6e-3}, Jam{4, 0}));
 
-// What is pushed out of others goes by implicit Euler: by a step that damps less they reached 1e6 m/s.
+// Position correction uses implicit Euler: with less damping bodies reached 1e6 m/s.
 INSTANTIATE_TEST_SUITE_P(SecondOrder, JamOfCubes,
                          testing::Values(Jam{2, 0, Coupling::coupled, false, 0}, Jam{4, 0, Coupling::coupled, false, 0},
                                          Jam{2, 6e-3, Coupling::swap, true, 0}));

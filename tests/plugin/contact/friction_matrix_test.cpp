@@ -24,7 +24,7 @@ struct FrictionCase
     double m_steepness;  // tan(slope) / mu [-]
     double m_young;      // [Pa]
     int m_stepsPerSecond;
-    bool m_plane;  // else a box
+    bool m_plane;  // else on a box
 };
 
 std::string nameOf(const FrictionCase& c)
@@ -33,7 +33,7 @@ std::string nameOf(const FrictionCase& c)
            std::to_string(c.m_stepsPerSecond) + "Hz" + (c.m_plane ? "OnAPlane" : "OnABox");
 }
 
-/// A cube of 1 m on a ground that falls towards +x. The swap alone: the ground is static.
+/// A cube of 1 m on a ground inclined downwards to +x. Staggered coupling only: the ground is static.
 class FrictionMatrix : public EachWorldWith<FrictionCase>
 {
 protected:
@@ -70,7 +70,7 @@ protected:
         return norm(J - dot(J, m_normal) * m_normal) / dot(J, m_normal);
     }
 
-    // Acceleration that Coulomb's law leaves [m/s2].
+    // Acceleration by Coulomb's law [m/s2].
     double expectedAcceleration() const { return kGravity * (std::sin(m_slope) - kFriction * std::cos(m_slope)); }
 
     const double m_h = 1.0 / value().m_stepsPerSecond;                  // [s]
@@ -83,7 +83,7 @@ protected:
 
 using Sliding = FrictionMatrix;
 
-/// Damped: by its stiffness damping alone the softer cube would swing for half a minute.
+/// With mass damping: stiffness damping alone would let the softer cube oscillate for half a minute.
 class Sticking : public FrictionMatrix
 {
 protected:

@@ -20,7 +20,7 @@ constexpr double kLiftSpeed = 0.2;                           // [m/s]
 constexpr double kPedestal = 0.3;                            // [m]
 
 /// A kinematic carriage with two dynamic pads on sliders along x, and a soft cube of 1 kg between them on a pedestal.
-/// The pads reach far below the cube: it stays between them for a while when it slides.
+/// The pads reach far below the cube, so that a sliding cube stays between them for a while.
 class Gripper
 {
 public:
@@ -62,12 +62,12 @@ public:
 
     double weight() const { return massOf(*m_cube) * kGravity; }
     double height() const { return centerOf(*m_cube).z; }
-    // Of the cube's centre in the gripper's frame [m].
+    // Position of the cube's centre in the gripper's frame [m].
     Vec3 hold() const { return centerOf(*m_cube) - vec3(m_carriage->getWorldTransform().getOrigin()); }
     Vec3 forceOf(int side) const { return vec3(m_fem.contactForce(m_cube, m_pads[side])); }
     double speed() const { return velocityOf(*m_cube).z; }
 
-    // Pads pushed together by `push` [N], the carriage moved up at `speed` [m/s].
+    // Steps with the pads pushed together by `push` [N], and the carriage moving upwards at `speed` [m/s].
     void step(double push, double speed, int count = 1)
     {
         for (int k = 0; k < count; ++k)
@@ -80,7 +80,7 @@ public:
         }
     }
 
-    // Grips within half a second, and lifts by 0.1 m without a jerk.
+    // Closes within half a second, and lifts smoothly by 0.1 m.
     void lift(double push)
     {
         step(push, 0, 30);
@@ -100,7 +100,7 @@ private:
     double m_height = 1;  // of the carriage [m]
 };
 
-// Coupled: the pads are held by joints and pushed by forces, and touch the cube.
+// Monolithic coupling: pads held by joints and pushed by forces are in contact with the cube.
 TEST(CoupledGripper, HoldsTheLoadThatFrictionCarries)
 {
     Gripper gripper;
@@ -114,7 +114,7 @@ TEST(CoupledGripper, HoldsTheLoadThatFrictionCarries)
         EXPECT_NEAR(gripper.forceOf(0).x, push, 0.01 * push) << "frame " << frame;
         EXPECT_NEAR(gripper.forceOf(1).x, -push, 0.01 * push) << "frame " << frame;
         EXPECT_NEAR(gripper.forceOf(0).z + gripper.forceOf(1).z, gripper.weight(), 0.01 * gripper.weight());
-        EXPECT_LT(norm(gripper.hold() - held), 1.5e-3) << "frame " << frame;  // creeps by a third of a mm a second
+        EXPECT_LT(norm(gripper.hold() - held), 1.5e-3) << "frame " << frame;  // creep of a third of a mm a second
     }
 }
 

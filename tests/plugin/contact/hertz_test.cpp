@@ -19,8 +19,8 @@ namespace
 constexpr double kRadius = 1;                     // of the sphere, R [m]
 constexpr double kContactRadius = 0.1;            // at the largest depth, a = sqrt(R d) [m]
 constexpr double kFineCell = kContactRadius / 5;  // [m]
-constexpr int kFineCells = 6;                     // of that size around the axis
-constexpr double kGrowth = 1.5;                   // of the cells beyond
+constexpr int kFineCells = 6;                     // number of fine cells around the axis
+constexpr double kGrowth = 1.5;                   // growth factor of the cells beyond
 constexpr int kCoarseCells = 9;
 constexpr double kYoung = 1e6, kPoisson = 0.3;  // [Pa], [-]
 
@@ -46,7 +46,7 @@ TetMesh gradedQuarterBlock()
     return TetMesh(std::move(positions), grid.tets());
 }
 
-/// A kinematic sphere pressed into the block without friction or gravity, in steps long enough to forget inertia.
+/// A kinematic sphere pressed into the block without friction or gravity, in steps long enough to be quasi-static.
 class Hertz : public testing::Test
 {
 protected:
@@ -96,7 +96,7 @@ protected:
         return -4 * m_fem.contactForce(m_block, m_sphere).z();
     }
 
-    // With how far the force is above Hertz's at each of some depths.
+    // Expects that the force exceeds Hertz's by `least` to `most` at several depths, and follows a power of 3/2.
     void expectPowerOfThreeHalves(double least, double most);
 
     static constexpr btScalar kLongStep = btScalar(0.1);  // [s]
@@ -112,7 +112,7 @@ void Hertz::expectPowerOfThreeHalves(double least, double most)
     ASSERT_GT(m_depthOfBlock, 10 * kContactRadius);
     constexpr double kReducedModulus = kYoung / (1 - kPoisson * kPoisson);
     const double largest = kContactRadius * kContactRadius / kRadius;
-    double sumX = 0, sumY = 0, sumXX = 0, sumXY = 0;  // of the line through log depth, log force
+    double sumX = 0, sumY = 0, sumXX = 0, sumXY = 0;  // of the regression of log force on log depth
     int count = 0;
     for (const double share : {0.65, 0.73, 0.82, 0.91, 1.0})  // contact radii of four to five cells
     {

@@ -16,7 +16,7 @@ namespace
 constexpr double kCubeFriction = 0.5, kInclineOwnFriction = 0.8;
 constexpr double kInclineFriction = kCubeFriction * kInclineOwnFriction;  // Coulomb's mu [-]
 
-/// A cube on a ground that falls towards +x, with tan(slope) = steepness * mu.
+/// A cube on a ground inclined downwards to +x, with tan(slope) = steepness * mu.
 class Incline
 {
 public:
@@ -118,7 +118,7 @@ TEST(Friction, IsAbsentOnIce)
     world.step(60);
     cube.addVelocity(btVector3(2, 0, 0));
     world.step(120);
-    EXPECT_NEAR(velocityOf(cube).x, 2, 2e-3);  // 1e-3 of its speed: the tolerance of the solves
+    EXPECT_NEAR(velocityOf(cube).x, 2, 2e-3);  // 1e-3 of its speed: the solver's tolerance
 }
 
 TEST(Friction, SlidingBodyComesToRestAfterCoulombsTime)

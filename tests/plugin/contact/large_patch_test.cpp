@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Sheets of one layer of cells, side to side over each other. The swap alone: what carries them is static.
+/// Sheets of one layer of cells, with their sides one over another. Staggered coupling only: the support is static.
 class LargePatch : public testing::Test
 {
 protected:
@@ -31,7 +31,7 @@ protected:
         return m_world.addSoft(sheet);
     }
 
-    // Largest depth of a body's nodes under a height [m]: under a flat rigid face, nothing of the surface is deeper.
+    // Maximum depth of a body's nodes below a height [m]: under a flat rigid face that is the surface's maximum depth.
     static double depthUnder(const btSoftBody& body, double height) { return height - lowestHeight(body); }
 
     btFemSoftBodySolver m_fem;

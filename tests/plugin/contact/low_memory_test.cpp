@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Contact of bodies whose factor is the low-memory one keeps to the bounds of the full one's: a few scenes of the other
-// tests with either.
+// Contact scenes with the low-memory factor fulfil the bounds of the full factor: several scenes of other tests with
+// both.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -27,7 +27,7 @@ btFemSolverInfo withChoice(btFemFactorChoice choice)
 class ContactWithEitherFactor : public testing::TestWithParam<btFemFactorChoice>
 {
 protected:
-    // The path was taken, and nothing is wrong.
+    // Expects that the path was taken, and no fault flags.
     void expectHealthy(const btSoftBody& body) const
     {
         const btFemStepReport& report = m_fem.stepReport(&body);
@@ -38,7 +38,7 @@ protected:
     btFemSoftBodySolver m_fem{withChoice(GetParam())};
 };
 
-// Two rows of nodes, pressed apart: the surface gives way much more where it is touched than beside it.
+// Two rows of nodes are compressed: the surface's compliance is much larger in contact than beside it.
 TEST_P(ContactWithEitherFactor, ACylinderCarriesACubeToItsWeight)
 {
     SoftWorld world(m_fem);
@@ -87,7 +87,7 @@ TEST_P(ContactWithEitherFactor, FrictionHoldsAndBrakesByCoulombsLaw)
     }
 }
 
-// 1 GPa: most of the factor's error is in how the body turns as a whole.
+// 1 GPa: the factor's error is mostly in the rigid rotation.
 TEST_P(ContactWithEitherFactor, AStiffBallLeavesAtItsShareOfTheSpeed)
 {
     SoftWorld world(m_fem, btVector3(0, 0, 0));
@@ -108,7 +108,7 @@ TEST_P(ContactWithEitherFactor, AStiffBallLeavesAtItsShareOfTheSpeed)
     expectHealthy(*ball);
 }
 
-// Meshes that do not fit, so that points lie on faces.
+// Meshes that do not match, so that contact points lie on faces.
 TEST_P(ContactWithEitherFactor, ASoftBodyCarriesAnotherToItsWeight)
 {
     SoftWorld world(m_fem);
@@ -136,7 +136,7 @@ TEST_P(ContactWithEitherFactor, ASoftBodyCarriesAnotherToItsWeight)
     expectHealthy(upper);
 }
 
-// Rigid, soft, rigid, ten to one, solved together.
+// Rigid, soft, rigid, with a mass ratio of ten, in monolithic coupling.
 TEST_P(ContactWithEitherFactor, AStackOfRigidAndSoftStands)
 {
     constexpr double kEdge = 0.2;

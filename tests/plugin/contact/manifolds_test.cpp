@@ -38,7 +38,7 @@ btRigidBody& addStone(SoftWorld& world, btScalar height)
     return addRigidBox(world, {0.2, 0.2, 0.2}, {10, at(0, 0, height)});
 }
 
-/// The manifolds that Bullet's loops see of two objects.
+/// The manifolds between two objects, by Bullet's loop over manifolds.
 std::vector<const btPersistentManifold*> manifoldsOf(SoftWorld& world, const btCollisionObject& a,
                                                      const btCollisionObject& b)
 {
@@ -66,7 +66,7 @@ protected:
     void SetUp() override
     {
         m_cube = &addCube(m_world, btScalar(0.001));
-        m_floor = &m_world.addFloorBox();  // second, so that Bullet pairs them the other way round
+        m_floor = &m_world.addFloorBox();  // added second, so that Bullet pairs them in the other order
         m_world.step(60);
     }
 
@@ -132,7 +132,7 @@ TEST_P(Manifolds, HoldTheFourDeepestContactPoints)
             const btVector3 friction = point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
                                        point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
             const double most = 1e-5 * contacts[c].m_impulse.length();
-            EXPECT_LE((friction + contacts[c].m_frictionImpulse).length(), most);  // that on the floor
+            EXPECT_LE((friction + contacts[c].m_frictionImpulse).length(), most);  // of the floor
         }
         EXPECT_EQ(matches, 1);
         EXPECT_LT((point.m_normalWorldOnB - btVector3(0, 0, -1)).length(), 1e-5);  // to the first, the floor
@@ -366,7 +366,7 @@ TEST(ManifoldCallbacks, TellTheBeginTheEndAndThePoints)
         btRigidBody& floor = world.addFloorBox();
         addCube(world, btScalar(0.001));
         world.step(60);
-        EXPECT_EQ(s_added, 0);  // nobody asked
+        EXPECT_EQ(s_added, 0);  // no callback is set
         floor.setCollisionFlags(floor.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
         world.step(10);
         EXPECT_EQ(s_added, 40);
@@ -387,7 +387,7 @@ TEST(ManifoldsOfSprings, BodiesOfBulletKeepBulletsWays)
         SoftWorld world(fem ? static_cast<btSoftBodySolver&>(solver) : bullet);
         world.addPlane();
         world.addRigid(compound(world));
-        if (fem) addCube(world, btScalar(0.2), 20);  // registers with the dispatcher; far away
+        if (fem) addCube(world, btScalar(0.2), 20);  // registers with the dispatcher, far away
         btSoftBody& ball = world.addSoft(
             btSoftBodyHelpers::CreateEllipsoid(world.info(), btVector3(0, 0, 1), btVector3(0.3, 0.3, 0.3), 64));
         world.step(60);

@@ -19,10 +19,10 @@ constexpr double kLength = 1;  // of the scene [m]
 struct MomentumCase
 {
     Coupling m_coupling;
-    int m_power;       // rigid mass over soft mass is ten to this
-    bool m_softFlies;  // on the rigid one, or the other way round
-    bool m_sphere;     // or a cube
-    bool m_offCentre;  // and what flies spins
+    int m_power;       // log10 of rigid mass over soft mass
+    bool m_softFlies;  // the soft body flies, else the rigid one
+    bool m_sphere;     // else a cube
+    bool m_offCentre;  // and the flying body spins
 };
 
 std::string nameOf(const testing::TestParamInfo<MomentumCase>& info)
@@ -83,14 +83,14 @@ protected:
     btRigidBody* m_rigid;
 };
 
-// Either solver. Rigid spheres and cubes only: the implicit gyroscopic term that Bullet adds to other bodies does not
-// conserve.
+// Both couplings. Rigid spheres and cubes only: Bullet's implicit gyroscopic term for other bodies does not conserve
+// momentum.
 TEST_P(ZeroGravity, CollisionsKeepBothMomenta)
 {
     Motion start = motionOf(*m_soft);
     start += motionOf(*m_rigid);
     int touchingSteps = 0;
-    double linear = 0, angular = 0;  // worst errors, relative
+    double linear = 0, angular = 0;  // maximum relative errors
     for (int k = 0; k < 90; ++k)
     {
         m_world.step();

@@ -24,7 +24,7 @@ struct OedometerCase
     int m_stepsPerSecond;
 };
 
-/// A soft cube of 1 m in a frictionless pit that fits it exactly, under a heavy dynamic box, with the coupled solver.
+/// A soft cube of 1 m in a frictionless pit of exactly its size, under a heavy dynamic box, in monolithic coupling.
 class Oedometer : public testing::TestWithParam<OedometerCase>
 {
 protected:
@@ -39,13 +39,13 @@ protected:
         material.m_youngModulus = btScalar(kYoung);
         material.m_poissonRatio = btScalar(GetParam().m_poissonRatio);
         material.m_density = btScalar(GetParam().m_density);
-        material.m_stiffnessDamping = btScalar(0.05);  // comes to rest soon
+        material.m_stiffnessDamping = btScalar(0.05);  // to settle soon
         m_fem.setMaterial(cube, material);
         m_cube = &m_world.addSoft(cube);
         addHeavyBox();
     }
 
-    // Larger than the pit, whose walls it does not see; it can only move along z.
+    // The box is larger than the pit, does not collide with its walls, and moves along z only.
     void addHeavyBox()
     {
         RigidSettings settings;
@@ -67,7 +67,7 @@ protected:
                                 settings);
     }
 
-    // Mean height of the nodes that were at rest height z [m].
+    // Mean height of the nodes with rest height z [m].
     double meanHeight(double z) const
     {
         double sum = 0;
@@ -104,7 +104,7 @@ TEST_P(Oedometer, SettlesByTheConstrainedModulusAndPressesOnTheWalls)
     findLayers();
     const double h = 1.0 / GetParam().m_stepsPerSecond, nu = GetParam().m_poissonRatio;
     m_world.step(4 * GetParam().m_stepsPerSecond, btScalar(h));
-    // The cube's own weight shortens it like half of it on top. Width, depth and height are 1 m.
+    // The cube's own weight shortens it as half of it on top would. Width, depth and height are 1 m.
     const double load = GetParam().m_mass * kGravity, weight = massOf(*m_cube) * kGravity;
     const double modulus = kYoung * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
     const double expected = (load + weight / 2) / modulus;

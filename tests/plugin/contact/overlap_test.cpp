@@ -20,15 +20,15 @@ constexpr double kOverlapSize = 0.5;  // edge of the soft cubes [m]
 struct OverlapCase
 {
     const char* m_name;
-    double m_share;  // of the cube's size that is inside the other body [-]
+    double m_share;  // of the cube's size inside the other body [-]
     Coupling m_coupling;
 };
 
-/// Soft cubes that are put partly into something else; nothing may be thrown about.
+/// Soft cubes that start partly inside another body; the correction must be gentle.
 class Overlap : public testing::TestWithParam<OverlapCase>
 {
 protected:
-    // Its lowest face at the given height [m].
+    // Adds a cube with its lowest face at this height.
     btSoftBody& addCube(double lowest)
     {
         btSoftBody* cube =
@@ -45,7 +45,7 @@ protected:
         return *m_movable;
     }
 
-    // 3 s. Keeps the largest node speed, the largest energy of motion, and whether all stayed finite.
+    // Runs 3 s; records the maximum node speed, the maximum kinetic energy, and whether all numbers stay finite.
     void watch()
     {
         for (int k = 0; k < 180; ++k)
@@ -65,7 +65,8 @@ protected:
 
     double depth() const { return GetParam().m_share * kOverlapSize; }
 
-    // Position correction (m_maxPushVelocity, 1 m/s) is not kept as velocity: what remains is what the push strains.
+    // Position correction (m_maxPushVelocity, 1 m/s) adds no velocity: motion comes only from the strain that it
+    // causes.
     void expectCalm(double mass) const
     {
         EXPECT_TRUE(m_finite);
@@ -84,7 +85,7 @@ protected:
         EXPECT_LT(lowestHeight(cube), kGone);
     }
 
-    static constexpr double kGone = 1e-3 * kOverlapSize;  // overlap that is left alone at movable bodies
+    static constexpr double kGone = 1e-3 * kOverlapSize;  // overlap accepted with movable bodies
     btFemSoftBodySolver m_fem;
     SoftWorld m_world{m_fem, GetParam().m_coupling};
     std::vector<btSoftBody*> m_cubes;
@@ -105,7 +106,7 @@ TEST_P(Overlap, IsResolvedWithAStaticBox)
     expectOverlapWithTheGroundToBeResolved();
 }
 
-// The way out is up for every node, though not by much for those of the upper corners.
+// The separating direction is upwards for each node, for those of the upper corners only slightly.
 TEST_P(Overlap, IsResolvedWithADynamicBoxOnTop)
 {
     m_world.addFloorBox();
@@ -116,12 +117,13 @@ TEST_P(Overlap, IsResolvedWithADynamicBoxOnTop)
     expectCalm(massOf(cube));
     const btVector3& center = box.getCenterOfMassPosition();
     EXPECT_GT(lowestHeight(cube), -kGone);
-    EXPECT_GT(center.z() - kThin, kOverlapSize - 0.02);  // its weight presses the top by some mm
+    EXPECT_GT(center.z() - kThin, kOverlapSize - 0.02);  // its weight compresses the top by some mm
     EXPECT_LT(std::hypot(center.x(), center.y()), 0.02);
     EXPECT_LT(m_fem.stepReport(&cube).m_deepestPenetration, 2 * kGone);
 }
 
-// Nodes under a small box may find its sides nearer than its lower face: where it goes is open, how fast is not.
+// Nodes under a small box may be nearer to its sides than to its lower face: its final place is open, its speed is
+// bounded.
 TEST_P(Overlap, ThrowsNothingWithASmallDynamicBox)
 {
     m_world.addFloorBox();
@@ -132,7 +134,7 @@ TEST_P(Overlap, ThrowsNothingWithASmallDynamicBox)
     watch();
     EXPECT_TRUE(m_finite);
     EXPECT_LT(m_fastestRigid, std::sqrt(2 * kGravity * kOverlapSize) + 1);  // it may fall off
-    // Nodes may spring back at the share of the speed of sound, sqrt(E / rho), that they were strained by.
+    // Nodes may spring back at the strain times the speed of sound, sqrt(E / rho).
     EXPECT_LT(m_fastest, std::sqrt(2 * kGravity * kOverlapSize) + GetParam().m_share * std::sqrt(1e6 / 1000));
     EXPECT_LT(m_largestEnergy, massOf(cube) * 2);  // of 2 m/s
     EXPECT_LT(std::hypot(box.getCenterOfMassPosition().x(), box.getCenterOfMassPosition().y()), 2);

@@ -15,7 +15,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Keeps what a test tells.
+/// Records the contacts passed to the callback.
 struct Told : btCollisionWorld::ContactResultCallback
 {
     btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int indexA,
@@ -94,7 +94,7 @@ TEST_P(ContactQuery, RigidBodyReportsTheSoftOne)
         EXPECT_EQ(told.m_first[k], m_sphere);
         EXPECT_EQ(told.m_second[k], m_cube);
         const btManifoldPoint& point = told.m_points[k];
-        EXPECT_GT(point.m_normalWorldOnB.z(), 0.9);  // from the cube to the sphere on it
+        EXPECT_GT(point.m_normalWorldOnB.z(), 0.9);  // from the cube to the sphere above
         EXPECT_NEAR(point.getPositionWorldOnB().z(), 0.4, 0.02);
     }
 }

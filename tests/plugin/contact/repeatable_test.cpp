@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A stack of rigid boxes that falls over, a chain, and a soft cube with a stone on it far away.
+/// A falling stack of rigid boxes and a chain, and far from them a soft cube with a stone on it.
 class RigidBesideSoft
 {
 public:
@@ -79,11 +79,11 @@ TEST_P(IslandsWithoutFemBodies, AreSolvedBitForBitAsByBulletsOwnSolver)
     EXPECT_GT(touching, 100);
 }
 
-// How many bodies Bullet hands to its solver at once, in whole islands; 128 is its default.
+// The maximum number of bodies that Bullet batches into one island solve; 128 is its default.
 INSTANTIATE_TEST_SUITE_P(OneIsland, IslandsWithoutFemBodies, testing::Values(1));
 INSTANTIATE_TEST_SUITE_P(SeveralIslands, IslandsWithoutFemBodies, testing::Values(128));
 
-/// Bodies that are alike, in the order of their addresses or the other way round.
+/// Makes equal bodies, in the order of their addresses or in reverse.
 template <class Body, class Make>
 std::vector<Body*> inOrderOfAddress(int count, bool descending, Make make)
 {

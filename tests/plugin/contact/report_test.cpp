@@ -90,7 +90,7 @@ TEST_P(CubeOnTwoBoxes, ContactsNamePlaceAndObject)
         {
             ASSERT_GE(c.m_nodes[a], 0);
             ASSERT_LT(c.m_nodes[a], m_cube->m_nodes.size());
-            point += double(c.m_weights[a]) * vec3(m_cube->m_nodes[c.m_nodes[a]].m_q);  // as the step began
+            point += double(c.m_weights[a]) * vec3(m_cube->m_nodes[c.m_nodes[a]].m_q);  // at the start of the step
         }
         EXPECT_LT(norm(point - vec3(c.m_point)), 1e-5);
         const btScalar friction = (c.m_impulse - c.m_impulse.dot(c.m_normal) * c.m_normal).length();
@@ -110,7 +110,7 @@ TEST_P(CubeOnTwoBoxes, TheReportHasEveryField)
     EXPECT_GT(report.m_factorEntries, 9 * m_cube->m_nodes.size() / 2);
     for (const btScalar cost : {report.m_factorSeconds, report.m_freeMotionMs, report.m_contactMs})
         EXPECT_TRUE(std::isfinite(cost) && cost >= 0) << cost;
-    m_cube->addVelocity(btVector3(0, 0, -1));  // at rest contact may need no sweep and no iteration
+    m_cube->addVelocity(btVector3(0, 0, -1));  // at rest contact may need neither a sweep nor an iteration
     m_world.step();
     EXPECT_GT(m_fem.stepReport(m_cube).m_contactSweeps, 0);
     EXPECT_GT(m_fem.stepReport(m_cube).m_contactIterations, 0);
@@ -151,9 +151,9 @@ TEST_P(ContactOffset, KeepsTheSurfaceAway)
 
 struct HardnessCase
 {
-    double m_mass;      // of what the cube is in [kg]; 0: static
+    double m_mass;      // of the support [kg]; 0: static
     double m_hardness;  // kKHR of static ones, kCHR of others
-    double m_share;     // of the penetration that a step takes back, at an m_erp of .2
+    double m_share;     // of the penetration, corrected in a step with m_erp = .2
 };
 
 class ContactHardness : public EachWorldWith<HardnessCase>
@@ -162,13 +162,13 @@ class ContactHardness : public EachWorldWith<HardnessCase>
 
 TEST_P(ContactHardness, IsHowMuchOfAPenetrationAStepTakesBack)
 {
-    constexpr double kDepth = 0.01;  // less than m_maxPushVelocity takes back in a step
+    constexpr double kDepth = 0.01;  // less than m_maxPushVelocity corrects in a step
     FemWorld world(worldClass(), btVector3(0, 0, 0));
     world.addRigid(new btBoxShape(btVector3(2, 2, 1)), {btScalar(value().m_mass), at(0, 0, -1)});
     btSoftBody& cube = addCube(world, btScalar(-kDepth));
     (value().m_mass > 0 ? cube.m_cfg.kCHR : cube.m_cfg.kKHR) = static_cast<btScalar>(value().m_hardness);
     world.step();
-    // Up to a ten thousandth of the size may be left.
+    // Up to 1e-4 of the size may remain.
     EXPECT_NEAR(lowestHeight(cube), -(1 - value().m_share) * kDepth, 1.1e-4);
 }
 

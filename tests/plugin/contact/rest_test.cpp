@@ -18,7 +18,7 @@ namespace bullet_fem
 namespace
 {
 
-// A cube of upholstery foam that lands on a smaller box sags over its edges: every step asks for other impulses.
+// A cube of upholstery foam on a smaller box sags over its edges: impulses differ in each step.
 TEST(FoamOnASmallBox, ClosesNoFasterThanTheTolerance)
 {
     btFemSoftBodySolver fem;
@@ -95,13 +95,13 @@ INSTANTIATE_TEST_SUITE_P(Grounds, CubeAtRest,
                                          RestCase{"boxAt240Hz", Ground::box, btScalar(1) / 240}),
                          [](const auto& scene) { return scene.param.m_name; });
 
-// What pushed in the last step is part of its free motion: little changes, so little is left to solve. Once nothing
-// touches, it is taken back in the same step.
+// The impulses of the last step predict those of the next free motion: they change little, so little is left to solve.
+// When the contact is gone, the prediction is reverted within the step.
 TEST_P(CubeAtRest, GoesOnWithFewIterationsAndFallsOnceItsGroundIsGone)
 {
     const btScalar h = GetParam().m_step;
     std::vector<double>
-        missed;  // [m/s]; in single precision by chance: of 16 starts at 30 Hz two or three by more than 1e-6
+        missed;  // [m/s]; depends on single precision rounding: of 16 starts at 30 Hz two or three exceed 1e-6
     for (const double height : {0.51, 0.512, 0.514, 0.516, 0.518})
     {
         btFemSoftBodySolver fem;
@@ -117,7 +117,7 @@ TEST_P(CubeAtRest, GoesOnWithFewIterationsAndFallsOnceItsGroundIsGone)
             iterations += fem.stepReport(&cube).m_iterations + fem.stepReport(&cube).m_contactIterations;
             EXPECT_LE(fem.stepReport(&cube).m_residual, 1e-3);
         }
-        EXPECT_LT(iterations, 60);  // two a step where it is not expected
+        EXPECT_LT(iterations, 60);  // two a step without the prediction
         world.world().removeRigidBody(&ground);
         world.step(1, h);
         missed.push_back(std::fabs(velocityOf(cube).z + kGravity * double(h)));
@@ -130,7 +130,7 @@ class CubeFarFromTheOrigin : public testing::TestWithParam<Ground>
 {
 };
 
-// At 100 m single precision resolves 8e-6 m: nodes reloaded from it every step would move by 5e-4 m/s.
+// At 100 m single precision resolves 8e-6 m: rereading node positions in each step would give velocities of 5e-4 m/s.
 TEST_P(CubeFarFromTheOrigin, DoesNotCreep)
 {
     btFemSoftBodySolver fem;

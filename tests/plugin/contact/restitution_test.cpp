@@ -20,7 +20,7 @@ namespace
 constexpr double kSoftRestitution = 0.6, kFloorRestitution = 1;
 constexpr double kRestitution = kSoftRestitution * kFloorRestitution;  // Bullet's rule [-]
 
-class Bounce : public EachWorldWith<int>  // steps a second
+class Bounce : public EachWorldWith<int>  // steps per second
 {
 protected:
     explicit Bounce(const btVector3& gravity = {0, 0, btScalar(-kGravity)}) : m_world(worldClass(), gravity)
@@ -40,7 +40,7 @@ protected:
         return m_world.addSoft(body);
     }
 
-    // A ball of radius 0.2 m that touches the ground with one node first.
+    // A ball of radius 0.2 m whose lowest point is a single node.
     btSoftBody& addBall(double height)
     {
         btSoftBody* ball = btFemHelpers::createFromTetMesh(m_world.info(), makeSphere(kRadius, 4));
@@ -57,7 +57,7 @@ protected:
 
     void step() { m_world.step(1, btScalar(m_h)); }
 
-    // Steps until something pushes the body, a second at most.
+    // Steps until the body has a contact impulse, for a second at most.
     void stepUntilTouched(const btSoftBody& body)
     {
         for (int k = 0; k < value(); ++k)
@@ -80,7 +80,7 @@ protected:
     BounceInSpace() : Bounce({0, 0, 0}) {}
 };
 
-// A body leaves as a whole at e times the speed at which it came, whatever the material and the step.
+// A body's mean rebound speed is e times its impact speed, for any material and step.
 TEST_P(BounceInSpace, ABodyLeavesAtItsShareOfTheSpeed)
 {
     for (const double young : {1e5, 1e7, 1e9})
@@ -97,7 +97,7 @@ TEST_P(BounceInSpace, ABodyLeavesAtItsShareOfTheSpeed)
     }
 }
 
-// A stiff body leaves as a whole: its own swings, shorter than the step, are damped.
+// A stiff body rebounds as a whole: its vibrations, shorter than the step, are damped.
 TEST_P(BounceInSpace, AStiffBodyLeavesAtItsShareOfTheSpeed)
 {
     btSoftBody& ball = addBall(0.3);
@@ -108,10 +108,10 @@ TEST_P(BounceInSpace, AStiffBodyLeavesAtItsShareOfTheSpeed)
     EXPECT_LT(std::hypot(velocityOf(ball).x, velocityOf(ball).y), 0.02);
 }
 
-// The apex is e^2 times the height, up to where in the step it hit: a share of g h / v.
+// The apex is e^2 times the height, up to the phase of the impact within the step: an error of order g h / v.
 TEST_P(Bounce, AStiffBallRisesToTheSquareOfItsRestitution)
 {
-    constexpr double kDrop = 1;  // of its lowest node [m]
+    constexpr double kDrop = 1;  // initial height of its lowest node [m]
     btSoftBody& ball = addBall(kDrop + kRadius);
     stepUntilTouched(ball);
     double apex = 0;
@@ -136,7 +136,7 @@ TEST_P(Bounce, StiffBallStaysWithoutRestitution)
     }
 }
 
-// Restitution must not keep a body at rest from resting.
+// Restitution does not keep a resting body from resting.
 TEST_P(Bounce, ABodyComesToRest)
 {
     btSoftBody& cube = addCube(1e7, 0.25);
@@ -163,10 +163,10 @@ class SpringyFloor : public Bounce
 {
 };
 
-// Bullet's contact stiffness of a static object: n points share the weight, so they sink in by F / (n k).
+// Bullet's contact stiffness of a static object: n points share the weight, so that they penetrate by F / (n k).
 TEST_P(SpringyFloor, YieldsByTheForceOverTheStiffnessOfItsPoints)
 {
-    constexpr double kStiffness = 2e3, kDamping = 100;  // of every point [N/m], [N s/m]
+    constexpr double kStiffness = 2e3, kDamping = 100;  // of each point [N/m], [N s/m]
     m_floor->setContactStiffnessAndDamping(btScalar(kStiffness), btScalar(kDamping));
     btSoftBody& cube = addCube(1e8, 0.2);
     for (int k = 0; k < 4 * value(); ++k) step();

@@ -18,8 +18,8 @@ namespace bullet_fem
 namespace
 {
 
-// A strip, 2 x 0.3 x 0.05 m, the half at x < 0.9 glued to the floor, the other bent up and over in an arc. It is too
-// soft to stand, and falls onto the first half; there is a plane below.
+// A strip, 2 x 0.3 x 0.05 m: the half at x < 0.9 is fixed on the floor, the other half is bent upwards and over in an
+// arc. It is too soft to stand, and falls onto the first half; below is a plane.
 class FoldingStrip
 {
 public:
@@ -47,7 +47,7 @@ public:
         }
     }
 
-    // How far the lowest node of the second half is above the first half's upper face [m].
+    // Height of the lowest node of the second half above the first half's upper face [m].
     double clearance() const
     {
         double least = 1;
@@ -80,7 +80,7 @@ TEST(SelfContact, AFoldingStripDoesNotPassThroughItself)
         ASSERT_TRUE(allFinite(*strip.m_strip));
         least = std::min(least, strip.clearance());
     }
-    EXPECT_GT(least, -0.01) << "what the glued half yields";
+    EXPECT_GT(least, -0.01) << "compression of the fixed half";
     EXPECT_LT(strip.clearance(), 0.01) << "it lies on it";
     EXPECT_GT(strip.selfContacts(), 10);
 }
@@ -96,7 +96,7 @@ TEST(SelfContact, IsOffUnlessAskedFor)
 TEST(SelfContact, IsTheSameIfItIsAskedForLater)
 {
     FoldingStrip early(true), late(false);
-    late.m_strip->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;  // it is prepared already
+    late.m_strip->m_cfg.collisions |= btSoftBody::fCollision::CL_SELF;  // already prepared
     early.m_world.step(60);
     late.m_world.step(60);
     EXPECT_GT(late.selfContacts(), 10);
@@ -114,7 +114,7 @@ TEST(SelfContact, GoesOnWithAnotherRestShape)
     EXPECT_GT(strip.selfContacts(), before / 2);
 }
 
-// Self contact of a body that does not touch itself changes nothing.
+// Enabling self contact does not change a body without self contact.
 TEST(SelfContact, DoesNotDisturbASquashedBody)
 {
     const auto run = [](bool selfContact)

@@ -21,12 +21,12 @@ namespace bullet_fem
 namespace
 {
 
-/// A ground whose highest point is at z = 0, above the origin.
+/// A ground whose highest point is the origin.
 struct GroundCase
 {
     const char* m_name;
     btRigidBody& (*m_add)(SoftWorld& world);
-    double m_sag;  // by how much a cube on it is lower than on a plane, at most [m]
+    double m_sag;  // maximum additional sag of a cube compared with a plane [m]
 };
 
 btRigidBody& addStatic(SoftWorld& world, btCollisionShape* shape, const btTransform& transform)
@@ -46,7 +46,7 @@ btRigidBody& addBox(SoftWorld& world)
 {
     return addStatic(world, new btBoxShape(btVector3(2, 2, btScalar(0.5))), at(0, 0, btScalar(-0.5)));
 }
-btRigidBody& addTiltedBoxEdge(SoftWorld& world)  // a ridge of 90 degrees under the middle
+btRigidBody& addTiltedBoxEdge(SoftWorld& world)  // a ridge of 90 degrees under the middle of the cube
 {
     auto* compound = new btCompoundShape;
     const double s = 1 / std::sqrt(2.0);
@@ -75,7 +75,7 @@ btRigidBody& addLyingCylinder(SoftWorld& world)
 btRigidBody& addConeUpsideDown(SoftWorld& world)
 {
     auto* cone = new btConeShapeZ(2, 2);
-    cone->setMargin(0);  // which Bullet adds to a cone's size
+    cone->setMargin(0);  // Bullet adds the margin to a cone's size
     return addStatic(world, cone, turned(btVector3(1, 0, 0), SIMD_PI, btVector3(0, 0, -1)));
 }
 btRigidBody& addBluntCone(SoftWorld& world)  // its apex presses into the middle of the lower face
@@ -84,7 +84,7 @@ btRigidBody& addBluntCone(SoftWorld& world)  // its apex presses into the middle
     cone->setMargin(0);
     return addStatic(world, cone, at(0, 0, btScalar(-0.5)));
 }
-btRigidBody& addHull(SoftWorld& world)  // a frustum, larger face up
+btRigidBody& addHull(SoftWorld& world)  // a frustum, with the larger face upwards
 {
     auto* hull = new btConvexHullShape;
     hull->setMargin(0);
@@ -125,7 +125,7 @@ btRigidBody& addMultiSphere(SoftWorld& world)  // a bar with round ends, wider i
     const btScalar radii[] = {2, 3, 2};
     return addStatic(world, new btMultiSphereShape(centers, radii, 3), btTransform::getIdentity());
 }
-btRigidBody& addHullWithMargin(SoftWorld& world)  // which Bullet adds to its size
+btRigidBody& addHullWithMargin(SoftWorld& world)  // Bullet adds the margin to its size
 {
     auto* hull = new btConvexHullShape;
     for (const btScalar sx : {-1, 1})
@@ -134,7 +134,7 @@ btRigidBody& addHullWithMargin(SoftWorld& world)  // which Bullet adds to its si
     return addStatic(world, hull, at(0, 0, -1 - hull->getMargin()));
 }
 
-// Fields of a slab, and of a ball of 3 m, of which the domain has the upper part.
+// Signed distance fields of a slab, and of a ball of 3 m, whose upper part lies in the domain.
 btRigidBody& addSlabField(SoftWorld& world)
 {
     return addStatic(world,
@@ -198,7 +198,7 @@ TEST_P(RestOnShape, IsCarriedToTheWeightAndNothingPasses)
                                                btScalar(0.25));
     btFemMaterial material;
     material.m_youngModulus = btScalar(1e6);
-    material.m_massDamping = 2;  // settles a cube that rocks
+    material.m_massDamping = 2;  // settles a rocking cube
     fem.setMaterial(made, material);
     made->m_cfg.kDF = 1;
     btSoftBody& cube = world.addSoft(made);
@@ -237,12 +237,12 @@ INSTANTIATE_TEST_SUITE_P(
                     GroundCase{"compound", addCompound, 0.02}, GroundCase{"nestedCompound", addNestedCompound, 0.02}),
     [](const auto& scene) { return scene.param.m_name; });
 
-/// A rigid body of 8 kg that falls a centimetre on a soft slab of 0.2 m, clamped below.
+/// A rigid body of 8 kg that falls by a centimetre on a soft slab of 0.2 m with a fixed lower face.
 struct MovingShape
 {
     const char* m_name;
     btCollisionShape* (*m_make)(SoftWorld& world, btTriangleMesh& mesh);
-    double m_height;  // of its origin where it lies on z = 0 [m]
+    double m_height;  // of its origin above z = 0 at rest [m]
 };
 
 btCollisionShape* makeMovingField(SoftWorld&, btTriangleMesh&)
@@ -312,7 +312,7 @@ TEST(FieldAtSpeed, StopsAFastBody)
     }
 }
 
-/// A shape of the user's own, which does not tell what it is made of.
+/// A user-defined shape without a recognised type.
 class OwnShape : public btConcaveShape
 {
 public:

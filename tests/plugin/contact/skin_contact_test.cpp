@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies whose drawn surface collides: where they rest, and what they feel.
+// Contact of render surfaces (skins): rest positions and contact forces.
 #include <gtest/gtest.h>
 
 #include "bridge/concave_test_shapes.h"
@@ -19,7 +19,7 @@ namespace
 
 constexpr double kSoftFriction = 0.5, kRigidFriction = 0.8;
 constexpr double kFriction = kSoftFriction * kRigidFriction;  // Coulomb's mu [-]
-constexpr double kSlop = 1e-4;  // what a surface may sink in at rest: 5e-5 of the body's size, and rounding [m]
+constexpr double kSlop = 1e-4;  // accepted penetration at rest: 5e-5 of the body's size, and rounding [m]
 
 class Skin : public testing::TestWithParam<Coupling>
 {
@@ -65,7 +65,7 @@ TEST_P(SkinGround, ABallRestsOnABox)
 
 TEST_P(SkinGround, ABallRestsOnATriangleMeshAndIsNotShotThroughIt)
 {
-    static btTriangleMesh mesh;  // outlives the world
+    static btTriangleMesh mesh;  // must outlive the world
     if (mesh.getNumTriangles() == 0) addGrid(mesh, {});
     btBvhTriangleMeshShape* shape = new btBvhTriangleMeshShape(&mesh, true);
     shape->setMargin(btScalar(0.01));
@@ -119,11 +119,11 @@ TEST_P(SkinGround, ABoxStandsOnAnother)
     const double weight = (massOf(lower) + massOf(upper)) * kGravity;
     EXPECT_NEAR(m_fem.contactForce(&lower, &floor).z(), weight, 1e-3 * weight);
     EXPECT_NEAR(m_fem.contactForce(&upper, &lower).z(), massOf(upper) * kGravity, 1e-3 * massOf(upper) * kGravity);
-    EXPECT_NEAR(lowestVertex(upper), 0.4, 5e-3);  // the lower one yields; both cages are cells of 13 cm
+    EXPECT_NEAR(lowestVertex(upper), 0.4, 5e-3);  // the lower one is compressed; both cages have cells of 13 cm
     EXPECT_LT(m_fem.stepReport(&upper).m_deepestPenetration, 1e-3);
 }
 
-// A soft box that falls on a floor, a knob and a rail, and is hit by a stone.
+// A soft box falls on a floor, a knob and a rail, and is hit by a stone.
 std::vector<btScalar> runOfABox(Coupling coupling, bool drawn)
 {
     btFemSoftBodySolver fem;
@@ -164,7 +164,7 @@ TEST_P(SkinGround, BoundarySkinCollidesLikeTheBodyToTheBit)
 INSTANTIATE_TEST_SUITE_P(Couplings, SkinGround, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-/// A box whose drawn surface lies on a plane that falls towards +x, with tan(slope) = steepness * mu.
+/// A box whose render surface lies on a plane inclined downwards to +x, with tan(slope) = steepness * mu.
 class SkinIncline
 {
 public:
@@ -199,7 +199,7 @@ private:
     btSoftBody* m_box;
 };
 
-/// By the squares of the surface [m]: as coarse as the cage, and so fine that contacts are thinned.
+/// The parameter is the size of the surface's squares [m]: as coarse as the cage, or so fine that contacts are thinned.
 class SkinFriction : public testing::TestWithParam<double>
 {
 };
@@ -236,8 +236,8 @@ TEST_P(SkinFriction, SlidesAboveItWithCoulombsForceAndNetAcceleration)
 INSTANTIATE_TEST_SUITE_P(Squares, SkinFriction, testing::Values(0.1, 0.04),
                          [](const auto& scene) { return scene.param > 0.05 ? "coarse" : "fine"; });
 
-// Speed of a ball that has rolled at 1 m/s for a second [m/s]. Contact acts where the surface will be as the step ends,
-// v h ahead, which alone takes 5/7 g v h / R = 0.06 m/s.
+// Speed after a second of a ball that starts rolling at 1 m/s [m/s]. Contact acts on the surface's position at the end
+// of the step, v h ahead, which alone costs 5/7 g v h / R = 0.06 m/s.
 double speedOfARollingBall(bool surfaceCollides)
 {
     btFemSoftBodySolver fem;
@@ -282,7 +282,7 @@ protected:
         };
         const Motion start = sum();
         int touching = 0;
-        double linear = 0, angular = 0;  // worst errors, relative
+        double linear = 0, angular = 0;  // maximum relative errors
         for (int k = 0; k < 60; ++k)
         {
             m_world.step();
@@ -290,7 +290,7 @@ protected:
             const Motion now = sum();
             const double scale = norm(motionOf(first).m_linear) + norm(motionOf(second).m_linear);
             linear = std::max(linear, norm(now.m_linear - start.m_linear) / scale);
-            angular = std::max(angular, norm(now.m_angular - start.m_angular) / scale);  // over a metre
+            angular = std::max(angular, norm(now.m_angular - start.m_angular) / scale);  // arm of a metre
         }
         const double rounding = sizeof(btScalar) == 4 ? 1e-5 : 1e-6;
         EXPECT_LT(linear, 1e-6);

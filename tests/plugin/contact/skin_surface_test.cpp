@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Which drawn surfaces can collide, and that they still do from file to file, step to step and thread to thread.
+// Valid collision surfaces, and their collision after baking, over steps, and on threads.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace
 
 using testing::HasSubstr;
 
-constexpr double kSinkage = 1e-4;  // what a surface may sink in at rest [m]
+constexpr double kSinkage = 1e-4;  // accepted penetration at rest [m]
 
 /// Balls and boxes that fall on each other, on a box and on a mesh.
 class SkinHeap
@@ -103,7 +103,7 @@ TEST(SkinHeap, ContinuesFromASnapshotToTheBit)
     EXPECT_TRUE(heap.run(30) == bits);
 }
 
-// Its two sides are nearer to each other than self contact believes what is inside.
+// Its two faces are closer than the distance within which self contact ignores neighbours.
 TEST(SkinSelfContact, ThinSlabHasNoSelfContact)
 {
     btFemSoftBodySolver fem;
@@ -119,7 +119,7 @@ TEST(SkinSelfContact, ThinSlabHasNoSelfContact)
     EXPECT_NEAR(lowestVertex(slab), 0, kSinkage);
 }
 
-// A block with a slot from one end: the upper jaw comes down on the lower.
+// A block with a slot from one end: the upper jaw moves down onto the lower one.
 TEST(SkinSelfContact, KeepsTheJawsOfABodyApart)
 {
     const TetMesh block = makeBox({1, 0.3, 0.5}, {10, 3, 10}, {-0.5, -0.15, 0.001});
@@ -176,7 +176,7 @@ protected:
         m_world.deleteSoft(body);
     }
 
-    // Refused by prepare; in a step the cage collides.
+    // Expects that prepare refuses the surface; in a step the cage collides instead.
     void expectRefused(const std::string& why, const std::function<void(btSoftBody&)>& spoil)
     {
         SCOPED_TRACE(why);
@@ -253,7 +253,7 @@ TEST_F(SkinSurface, InvertedRepeatedAndOpenSurfacesAreRepaired)
     expectToRest(flipped(sphere));
     expectToRest(joined(sphere, sphere));
     expectToRest(without(sphere, 100, 130));
-    SurfaceMesh soup;  // no two triangles share a vertex, every fifth is turned over, and one has no area
+    SurfaceMesh soup;  // no two triangles share a vertex, every fifth is reversed, and one has no area
     for (const Triangle& t : sphere.m_triangles)
     {
         const int n = static_cast<int>(soup.m_vertices.size());
@@ -333,10 +333,10 @@ TEST_F(SkinSurface, SharesItsForcesOutToTheNodes)
     }
     const double weight = massOf(body) * kGravity;
     EXPECT_LT(norm(sum - whole), 1e-5 * weight);
-    EXPECT_LT(norm(moment - wholeMoment), 1e-5 * weight);  // over a metre
+    EXPECT_LT(norm(moment - wholeMoment), 1e-5 * weight);  // arm of a metre
     EXPECT_GE(most, 4);
     EXPECT_GT(body.m_rcontacts.size(), 0);          // at the heaviest node
-    EXPECT_EQ(body.m_faceRigidContacts.size(), 0);  // no face of the cage has the points
+    EXPECT_EQ(body.m_faceRigidContacts.size(), 0);  // no face of the cage contains the points
 }
 
 TEST_F(SkinSurface, PersistsWhenTheRestShapeChanges)

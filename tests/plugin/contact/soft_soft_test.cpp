@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-// With Bullet's friction, 0.2, its lowest corner here [m] before it is turned about its middle.
+// A soft box with Bullet's friction, 0.2, given by its lowest corner [m] before rotation about its centre.
 SoftBox boxFrom(const Vec3& lowest, const Vec3& size = {1, 1, 1}, const std::array<int, 3>& cells = {4, 4, 4},
                 double turn = 0)
 {
@@ -85,7 +85,7 @@ TEST(SoftOnSoftPatch, NearlyAThousandPointsCarryWithoutSinkingIn)
         const double weight = massOf(upper) * kGravity;
         EXPECT_GT(fem.contacts(&upper).size(), 900);
         EXPECT_NEAR(fem.contactForce(&upper, &lower).z(), weight, 1e-3 * weight);
-        // Points over the rim come and go, .08 mm deep: what is below the slop, .46 mm, is not taken back.
+        // Contacts at the rim appear and vanish, .08 mm deep: penetrations below the slop, .46 mm, are not corrected.
         EXPECT_LT(fem.stepReport(&upper).m_deepestPenetration, 1e-3 * 0.2);
     }
 }
@@ -110,7 +110,7 @@ TEST(SoftStack, ThreeFlushCubesStand)
     for (const btSoftBody* cube : cubes) EXPECT_LT(std::hypot(centerOf(*cube).x - 0.5, centerOf(*cube).y - 0.5), 1e-3);
 }
 
-// Made a fifth deep in each other, with flush sides and with shifted ones.
+// Boxes that overlap by a fifth, with flush and with shifted sides.
 class SoftOverlapping : public testing::TestWithParam<double>
 {
 };
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Shifts, SoftOverlapping, testing::Values(0.0, 0.13),
 
 constexpr double kSlabFriction = 0.5;
 
-// A box on a clamped slab, the weight turned by the angle of this tangent.
+// A box on a fixed slab, with gravity rotated by the angle of this tangent.
 class SoftIncline
 {
 public:
@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(MassRatios, SoftCollision,
                                          SoftCollisionCase{"hundredthAside", 0.01, 0.5, 5}),
                          [](const auto& scene) { return scene.param.m_name; });
 
-// A soft ball at 20 m/s, a third of a metre a step, against a clamped plate one centimetre thick.
+// A soft ball at 20 m/s, a third of a metre a step, against a fixed plate of one centimetre.
 TEST(FastSoftBody, DoesNotPassAThinPlate)
 {
     btFemSoftBodySolver fem;
@@ -272,7 +272,7 @@ TEST(FastSoftBody, DoesNotPassAThinPlate)
         ASSERT_TRUE(allFinite(*ball) && allFinite(plate));
         ASSERT_GT(centerOf(*ball).z, -0.2) << "step " << k;
     }
-    EXPECT_GT(centerOf(*ball).z, 0.1) << "it came back";
+    EXPECT_GT(centerOf(*ball).z, 0.1) << "it rebounded";
 }
 
 TEST(SoftOnSoftRepeatability, GivesTheSameBits)

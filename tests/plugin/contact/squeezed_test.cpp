@@ -8,16 +8,15 @@
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/tunnelling_scene.h"
 
-/// Rigid bodies between soft ones and what Bullet's own contacts keep them out of: with the swap alone and with the
-/// coupled solver.
+/// Rigid bodies between soft ones and the objects of Bullet's own contacts: in staggered and in monolithic coupling.
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kRadius = 0.09;  // of rigid balls; of soft ones half a centimetre more [m]
-// In half of all steps; impacts of rigid bodies go deeper for a while. Piles differ by their bits, and with them depths
-// of .1 to 3.9 mm, whichever damping the steps have [m].
+constexpr double kRadius = 0.09;  // of rigid balls; soft ones are half a centimetre larger [m]
+// The median over steps; impacts of rigid bodies are deeper for a while. Piles depend on rounding, and their depths are
+// .1 to 3.9 mm, for any damping of the steps [m].
 constexpr double kDeepest = 5e-3;
 
 double medianOf(std::vector<double> values)
@@ -39,7 +38,7 @@ protected:
         return m_scene.m_world.addRigid(new btSphereShape(btScalar(kRadius)), settings);
     }
 
-    /// Static, with its face towards the origin this far from it [m].
+    /// A static wall at this distance from the origin, facing it [m].
     void addWall(double distance, const btVector3& towards)
     {
         RigidSettings settings;
@@ -55,7 +54,7 @@ protected:
         return body;
     }
 
-    /// How deep rigid things are in soft bodies [m].
+    /// Maximum depth of rigid bodies in soft ones [m].
     double depth(const std::vector<btSoftBody*>& bodies) const
     {
         double deepest = 0;
@@ -71,7 +70,7 @@ protected:
 
 }  // namespace
 
-// They fall in four columns, every third one rigid.
+// Balls fall in four columns, every third one rigid.
 TEST_P(Squeezed, BallsInAPitStayOutOfWallsAndOfEachOther)
 {
     const double half = 0.25;
@@ -144,7 +143,7 @@ TEST_P(Squeezed, ABallOnAnotherStaysOutOfIt)
     EXPECT_LT(medianOf(depths), kDeepest);
 }
 
-// What is behind it counts, but is no wall: nothing gains energy.
+// The support behind it counts, but is no static wall: nothing gains energy.
 TEST_P(Squeezed, FreeBallInContactWithAnotherYieldsWithIt)
 {
     m_scene.m_world.bullet().setGravity(btVector3(0, 0, 0));
@@ -165,7 +164,7 @@ TEST_P(Squeezed, FreeBallInContactWithAnotherYieldsWithIt)
     const Motion after = sum();
     EXPECT_NEAR(after.m_linear.z, before.m_linear.z, 1e-5 * std::fabs(before.m_linear.z));
     EXPECT_LT(after.m_energy, before.m_energy);
-    EXPECT_GT(velocityOf(soft).z, -2) << "it met them";
+    EXPECT_GT(velocityOf(soft).z, -2) << "they were in contact";
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, Squeezed, testing::Values(Coupling::swap, Coupling::coupled),

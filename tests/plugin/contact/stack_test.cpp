@@ -16,9 +16,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kShare = 0.16;  // by which the slab would yield if it were no wider than the box [-]
+constexpr double kShare = 0.16;  // compression of the slab if it were no wider than the box [-]
 
-/// A box of 10 kg on a slab of 1 kg that yields by 5 to 10 % under it, on a static floor.
+/// A box of 10 kg on a slab of 1 kg, which is compressed by 5 to 10 %, on a static floor.
 struct BoxOnSlab
 {
     explicit BoxOnSlab(Coupling coupling) : m_world(m_fem, coupling)
@@ -37,7 +37,7 @@ struct BoxOnSlab
         m_box = &addRigidBox(m_world, {0.3, 0.3, 0.2}, settings);
     }
 
-    // On the box [N].
+    // Force on the box [N].
     Vec3 force() { return vec3(-m_fem.contactForce(m_slab, m_box)); }
 
     const double m_weight = 10 * kGravity;  // of the box [N]
@@ -48,7 +48,7 @@ struct BoxOnSlab
     btRigidBody* m_box;
 };
 
-// Coupled: at rest is at rest, and the box feels its weight on every frame.
+// Monolithic coupling: the stack is at rest, and in each frame the force on the box is its weight.
 TEST(HeavyBoxOnLightSlabSlow, RestsInItsSettledPlaceWhenCoupled)
 {
     BoxOnSlab scene(Coupling::coupled);
@@ -68,8 +68,8 @@ TEST(HeavyBoxOnLightSlabSlow, RestsInItsSettledPlaceWhenCoupled)
     EXPECT_LT(norm(vec3(scene.m_box->getCenterOfMassPosition()) - settled), 1e-3);
 }
 
-// Swap: it stays as well and feels its weight, but one step late: it reads the
-// speed that takes back what gravity is about to give.
+// Staggered coupling: the stack stays at rest, but the box's force comes one step late, so that its velocity includes
+// one step of gravity.
 TEST(HeavyBoxOnLightSlabSlow, StaysWithTheSwapAlone)
 {
     BoxOnSlab scene(Coupling::swap);
@@ -91,8 +91,8 @@ TEST(HeavyBoxOnLightSlabSlow, StaysWithTheSwapAlone)
 constexpr double kEdge = 0.2;  // of every cube [m]
 constexpr int kSecond = 60;    // steps
 
-/// Cubes rigid, soft, rigid, soft, rigid on a static floor. The lower soft one yields by 1 %: columns that yield by
-/// much more buckle.
+/// Cubes on a static floor, alternately rigid and soft, starting with a rigid one. The lower soft cube is compressed by
+/// 1 %: softer columns buckle.
 struct AlternatingStack
 {
     AlternatingStack(double rigidMass, double softMass) : m_world(m_fem, Coupling::coupled)
@@ -136,7 +136,7 @@ struct AlternatingStack
         return fastest;
     }
 
-    // Upwards, of soft body k on the rigid one over it [N].
+    // Upward force of soft body k on the rigid one above [N].
     double forceOver(int k) const { return -m_fem.contactForce(m_soft[k], m_rigid[k + 1]).z(); }
 
     btFemSoftBodySolver m_fem;
@@ -178,7 +178,7 @@ TEST_P(CoupledStackSlow, StandsForAMinute)
         fastest = std::max(fastest, stack.fastest());
     }
     EXPECT_LT(largestDifference(stack.places(), settled), 1e-3);
-    EXPECT_LT(fastest, 5e-3);  // a thirtieth of what gravity gives in a step
+    EXPECT_LT(fastest, 5e-3);  // a thirtieth of gravity's velocity in a step
     EXPECT_LT(worst, 1e-2);
     EXPECT_NEAR(upperMean, upper, 1e-3 * upper);
     EXPECT_NEAR(lowerMean, lower, 1e-3 * lower);
@@ -214,13 +214,13 @@ INSTANTIATE_TEST_SUITE_P(Masses, CoupledStack, testing::Values(kEqual, kHeavyRig
 INSTANTIATE_TEST_SUITE_P(Masses, CoupledStackSlow, testing::Values(kEqual, kHeavyRigid), nameOf);
 INSTANTIATE_TEST_SUITE_P(HeavySoft, CoupledStackSlow, testing::Values(kHeavySoft), nameOf);
 
-/// Twenty soft cubes on each other, at the default tolerance.
+/// Twenty soft cubes one on another, at the default tolerance.
 class SoftTower : public testing::TestWithParam<Coupling>
 {
 };
 
-// What sweeps leave at every floor leans a tower over by the square of its height: by several millimetres within ten
-// seconds if only they hand on the load.
+// The sweeps' residual at each contact tilts a tower in proportion to its height squared: by several millimetres within
+// ten seconds if sweeps alone transfer the load.
 TEST_P(SoftTower, TwentyCubesStandUpright)
 {
     constexpr int kCubes = 20;
@@ -233,7 +233,7 @@ TEST_P(SoftTower, TwentyCubesStandUpright)
         SoftBox cube;
         cube.m_size = {0.5, 0.5, 0.5};
         cube.m_center = {0, 0, (k + 0.5) * 0.5};
-        cube.m_youngModulus = btScalar(2e8);  // three times what the tower buckles at under its weight
+        cube.m_youngModulus = btScalar(2e8);  // three times the buckling stiffness under its weight
         cube.m_friction = btScalar(0.8);
         cubes.push_back(&addSoftBox(world, fem, cube));
         cubes.back()->setActivationState(DISABLE_DEACTIVATION);
@@ -252,7 +252,7 @@ TEST_P(SoftTower, TwentyCubesStandUpright)
 INSTANTIATE_TEST_SUITE_P(Solvers, SoftTower, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& scene) { return couplingName(scene.param); });
 
-// Either solver: soft cubes alone are solved together in both.
+// Both couplings: soft cubes alone are solved together in each.
 class SoftStackSlow : public testing::TestWithParam<Coupling>
 {
 };
@@ -287,7 +287,7 @@ TEST_P(SoftStackSlow, FiveCubesStandForAMinuteAndShortenAsAColumn)
     };
     world.step(5 * kSecond);
     const std::vector<Vec3> settled = places();
-    double early = 0, late = 0;  // largest kinetic energies [J]
+    double early = 0, late = 0;  // maximum kinetic energies [J]
     for (int frame = 0; frame < 55 * kSecond; ++frame)
     {
         world.step();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Rolling and spinning friction of rigid bodies on soft ones, beside Bullet's own rigid ground.
+// Rolling and spinning friction of rigid bodies on soft ones, compared with Bullet's on rigid ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr double kBallRadius = 0.25;  // [m]
-constexpr double kBallMass = 2;       // Bullet has less friction from 1 N s a step on: 6 kg [kg]
+constexpr double kBallMass = 2;       // above 6 kg Bullet limits friction at 1 N s a step [kg]
 constexpr double kBallInertia = 0.4 * kBallMass * kBallRadius * kBallRadius;  // [kg m2]
 
 struct TorsionalCoefficients
@@ -26,7 +26,7 @@ struct TorsionalCoefficients
     double m_rolling, m_spinning;  // [m]
 };
 
-/// A slab of 2.4 x 0.6 x 0.1 m on the ground, its upper face at z = 0, clamped below; friction 1.
+/// A slab of 2.4 x 0.6 x 0.1 m on the ground, with its upper face at z = 0 and a fixed lower face; friction 1.
 btSoftBody& addSlab(FemWorld& world, btScalar youngModulus = btScalar(1e7))
 {
     SoftBox box;
@@ -56,7 +56,7 @@ btRigidBody& addRigidBall(FemWorld& world, const RigidSettings& settings, const 
     return ball;
 }
 
-/// A ball on a slab, and its twin on rigid ground.
+/// A ball on a slab, and its reference on rigid ground.
 struct BallAndTwin
 {
     btRigidBody *m_ball, *m_twin;
@@ -72,8 +72,7 @@ BallAndTwin addBalls(FemWorld& world, RigidSettings settings, const TorsionalCoe
     return {&ball, &addRigidBall(world, settings, friction)};
 }
 
-/// The couple that changed the ball's spin besides its contacts with a body, and what pressed on it: impulses of a
-/// step.
+/// The couple on the ball besides its contact impulses with a body, and the normal load: impulses of a step.
 struct StepCouple
 {
     Vec3 m_couple;        // [N m s]
@@ -95,7 +94,8 @@ StepCouple stepAndMeasure(FemWorld& world, const btRigidBody& ball, const btSoft
     return result;
 }
 
-/// With the swap what rests reads the velocity that gravity is about to take.
+/// The velocity of a resting ball. With the swap Bullet's value is that before gravity of the next step, which is
+/// added.
 btVector3 motionAtRest(FemWorld& world, const btRigidBody& ball)
 {
     const bool swaps = dynamic_cast<btFemConstraintSolver*>(world.bullet().getConstraintSolver()) == nullptr;
@@ -106,8 +106,8 @@ class TorsionalFrictionTest : public testing::TestWithParam<Coupling>
 {
 };
 
-// A ball that rolls along x loses v' = 5/7 mu_r g / r. On facets it loses some more, on the soft slab as on Bullet's
-// own ground.
+// A ball rolling along x decelerates by 5/7 mu_r g / r. Facets slow it further, on the soft slab as on Bullet's rigid
+// ground.
 TEST_P(TorsionalFrictionTest, RollingBallStopsAboutAsOnRigidGround)
 {
     constexpr double kSpeed = 1, kRolling = 0.05;  // [m/s], [m]
@@ -139,7 +139,7 @@ TEST_P(TorsionalFrictionTest, BallRollsOnWithoutIt)
     EXPECT_GT(ball.getWorldTransform().getOrigin().x() + 0.97, 0.6);
 }
 
-// Coulomb's law: while the ball rolls, the couple is mu_r times what presses on it, against the spin.
+// Coulomb's law: while the ball rolls, the couple is mu_r times the normal load, against the spin.
 TEST(TorsionalFrictionLaw, IsTheCoefficientTimesTheLoad)
 {
     constexpr double kSpeed = 0.6, kRolling = 0.005;
@@ -149,7 +149,7 @@ TEST(TorsionalFrictionLaw, IsTheCoefficientTimesTheLoad)
     settings.m_velocity = btVector3(btScalar(kSpeed), 0, 0);
     settings.m_spin = btVector3(0, btScalar(kSpeed / kBallRadius), 0);
     btRigidBody& ball = addRigidBall(world, settings, {kRolling, 0});
-    for (int k = 0; k < 4; ++k)  // until it touches another edge
+    for (int k = 0; k < 4; ++k)  // until the ball meets another edge
     {
         const StepCouple step = stepAndMeasure(world, ball, slab);
         EXPECT_GT(step.m_normal, 0.2);
@@ -165,7 +165,7 @@ TEST_P(TorsionalFrictionTest, ASpinningBallSlowsDownAsOnRigidGround)
     RigidSettings settings = ballAt(0.03, 0.05);
     settings.m_spin = btVector3(0, 0, btScalar(kSpin));
     const auto [ball, twin] = addBalls(world, settings, {1e-5, kSpinning});  // without rolling friction Bullet has none
-    world.step(15);                                                          // the swap's first weighs double
+    world.step(15);  // the first step of the swap has double load
     const double begin = ball->getAngularVelocity().z(), twinBegin = twin->getAngularVelocity().z();
     world.step(30);
     const double slowed = 0.5 * kSpinning * kBallMass * kGravity / kBallInertia;
@@ -175,7 +175,7 @@ TEST_P(TorsionalFrictionTest, ASpinningBallSlowsDownAsOnRigidGround)
     EXPECT_LT(std::fabs(ball->getAngularVelocity().z()), 1e-4);
 }
 
-// At tan(angle) = mu_r / r the couple holds the ball's weight.
+// At tan(angle) = mu_r / r the couple balances the ball's weight.
 TEST_P(TorsionalFrictionTest, RollingFrictionHoldsABallOnASlope)
 {
     constexpr double kRolling = 0.05;
@@ -193,7 +193,7 @@ TEST_P(TorsionalFrictionTest, RollingFrictionHoldsABallOnASlope)
     }
 }
 
-// A capsule that lies along y rolls along x. Bullet's direction of a capsule leaves the friction about its axis alone.
+// A capsule along y rolls along x. Bullet's anisotropic direction for capsules leaves only the friction about its axis.
 TEST_P(TorsionalFrictionTest, MayBeAnisotropic)
 {
     for (const bool aboutItsAxis : {true, false})
@@ -217,7 +217,7 @@ TEST_P(TorsionalFrictionTest, MayBeAnisotropic)
     }
 }
 
-// The same bits on any number of threads, with several balls on one slab.
+// Bitwise equal for any number of threads, with several balls on one slab.
 TEST(TorsionalFrictionOnThreads, HasTheSameBits)
 {
     std::vector<btScalar> first;
@@ -239,7 +239,7 @@ TEST(TorsionalFrictionOnThreads, HasTheSameBits)
     }
 }
 
-// Nothing else acts on the two.
+// No external torque acts on the pair.
 TEST_P(TorsionalFrictionTest, KeepsTheAngularMomentumOfAFreePair)
 {
     FemWorld world(WorldClass::softRigid, GetParam(), btVector3(0, 0, 0));
@@ -265,12 +265,13 @@ TEST_P(TorsionalFrictionTest, KeepsTheAngularMomentumOfAFreePair)
         worst = std::max(worst, norm(now.m_angular - start.m_angular));
     }
     EXPECT_LT(ball.getAngularVelocity().z(), 19.5);
-    // Of 16 places in single precision, the worst missed by 1.6e-6; in double precision all by 2e-10.
+    // Among 16 places in single precision the maximum error was 1.6e-6; in double precision 2e-10.
     const double rounding = sizeof(btScalar) == 4 ? 2e-6 : 1e-9;
     EXPECT_LT(worst, rounding * norm(start.m_angular));
 }
 
-// On many points as a ball's on few. Its kDF leaves no sliding friction to speak of.
+// Spinning friction of many contact points equals that of a ball's few. kDF is small, so that sliding friction is
+// negligible.
 TEST_P(TorsionalFrictionTest, SpinningBoxHasTheFrictionOfAllItsPoints)
 {
     constexpr double kSpin = 20, kSpinning = 0.02, kEdge = 0.2, kMass = 4;

@@ -20,7 +20,7 @@ btRigidBody& addBlock(SoftWorld& world, btScalar x)
     return addRigidBox(world, {0.4, 0.4, 0.4}, {0, at(x, 0, btScalar(-0.2))});
 }
 
-/// How often a pair was told to begin, to last and to end.
+/// Numbers of begin, persist and end reports of a pair.
 struct Count
 {
     int m_began = 0, m_lasting = 0, m_ended = 0;
@@ -86,7 +86,8 @@ TEST_P(Touches, SumTheImpulsesOfTheirPoints)
     const btFemTouch& touch = of(cube)[0];
     EXPECT_GT(touch.m_points, 0);
     EXPECT_LE(touch.m_points, m_fem.contacts(&cube).size());
-    // The slack leaves points out that carry nothing: the sum is that of all, to the rounding of floats.
+    // Points beyond the slack are left out; they carry nothing, so that the sum is that of all points, to the rounding
+    // of floats.
     const Vec3 all = double(kStep) * vec3(m_fem.contactForce(&cube, &floor));
     EXPECT_LT(norm(vec3(touch.m_impulse) - all), 1e-5 * norm(all));
     EXPECT_NEAR(touch.m_normalImpulse, all.z, 1e-5 * norm(all));  // the floor is flat
@@ -119,7 +120,7 @@ TEST_P(Touches, ALiftWithinTheSlackDoesNotEndThem)
     m_world.step();
     ASSERT_EQ(of(cube).size(), 1);
     const double edge = 0.1;                 // edges of the lattice are 0.1 to 0.17 m
-    for (const double lift : {0.002, 0.05})  // in edges
+    for (const double lift : {0.002, 0.05})  // in units of the edge
     {
         cube.translate(btVector3(0, 0, btScalar(lift * edge - lowestHeight(cube))));
         cube.setVelocity(btVector3(0, 0, 0));
@@ -163,7 +164,7 @@ TEST_P(Touches, ObjectAtAReusedAddressMakesANewPair)
     m_world.step(60);
     const int id = of(cube)[0].m_otherId;
     m_world.bullet().removeRigidBody(&floor);
-    m_world.bullet().addRigidBody(&floor);  // gets another id, as a new one at the address would
+    m_world.bullet().addRigidBody(&floor);  // gets another id, as a new object at this address would
     m_world.step();
     ASSERT_EQ(of(cube).size(), 2);
     EXPECT_EQ(of(cube)[0].m_otherId, id);
@@ -198,7 +199,7 @@ TEST_P(Touches, AgreeBetweenTwoSoftBodies)
     EXPECT_GT(steps, 90);
     m_world.deleteSoft(upper);
     m_world.step();
-    const btSoftBody* gone = &upper;  // an identity only
+    const btSoftBody* gone = &upper;  // used for its address only
     ASSERT_EQ(of(lower).size(), 2);
     for (int k = 0; k < 2; ++k)
         EXPECT_EQ(of(lower)[k].m_state, of(lower)[k].m_other == gone ? State::ended : State::lasting);

@@ -10,8 +10,8 @@
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/tunnelling_scene.h"
 
-/// What moves farther in a step than it is thick meets what lies on its path, and nothing else: with the swap alone and
-/// with the coupled solver.
+/// Bodies that move farther in a step than their thickness collide with the objects on their path only: in staggered
+/// and in monolithic coupling.
 namespace bullet_fem
 {
 namespace
@@ -72,7 +72,7 @@ protected:
     const Projectile m_sphere = {"sphere", 0.01, 0.01, kSphereMass, 100};
 };
 
-/// Lowest node over the upper face of a box, in the box's own frame [m].
+/// Height of the lowest node above the upper face of a box, in the box's frame [m].
 double lowestOver(const btSoftBody& body, const btRigidBody& box, double halfThickness)
 {
     double lowest = 1e30;
@@ -137,7 +137,7 @@ TEST_P(Tunnelling, ASoftBallAt50PushesAThinPlateOfTwiceItsMass)
     }
     EXPECT_GT(lowest, -0.00125);
     EXPECT_GE(velocityOf(ball).z, plate.getLinearVelocity().z());
-    EXPECT_LT(plate.getLinearVelocity().z(), -50.0 / 3 * 0.99) << "at least what a plastic impact gives";
+    EXPECT_LT(plate.getLinearVelocity().z(), -50.0 / 3 * 0.99) << "at least the impulse of an inelastic impact";
     Motion after = motionOf(ball);
     after += motionOf(plate);
     EXPECT_LT(norm(after.m_linear - before.m_linear), 1e-6 * whole);
@@ -166,8 +166,8 @@ TEST_P(Tunnelling, FastImpactsConserveMomentum)
     }
 }
 
-// Its contact is the point of the slab that it meets at the end of its way, and the normal there goes through its
-// centre.
+// The contact is at the point of the slab that the sphere meets at the end of its path; the normal there passes through
+// its centre.
 TEST_P(Tunnelling, ObliqueFrictionlessSphereDoesNotSpin)
 {
     FastScene scene(GetParam());
@@ -201,7 +201,7 @@ TEST_P(Tunnelling, SphereAtRestOnAShotSlabDoesNotPassIt)
     EXPECT_EQ(above, 0);
 }
 
-// Thinner than its way in a step, which is less than half of an edge.
+// Thinner than its displacement in a step, which is less than half of an edge.
 TEST_P(Tunnelling, ASlowThinPlateDoesNotPass)
 {
     for (const double height : {0.021, 0.026, 0.031, 0.036})
@@ -227,8 +227,8 @@ TEST_P(Tunnelling, ASlowThinPlateDoesNotPass)
     }
 }
 
-// Its way in a step is just less than half of an edge, and less than its thickness; but more than the 5 cm by which
-// Bullet's broad phase sees too much.
+// Its displacement in a step is just below half of an edge and below its thickness, but above the 5 cm by which
+// Bullet's broad phase enlarges bounds.
 TEST_P(Tunnelling, ASlowThickBoxIsSeenBeforeItSinksIn)
 {
     for (const double height : {5.2, 5.5, 5.8})
@@ -295,7 +295,7 @@ TEST_P(Tunnelling, AThinRodDroppedBetweenNodesRestsOnTheSurface)
     RigidSettings settings;
     settings.m_mass = btScalar(0.05);
     settings.m_transform = at(0, btScalar(0.024), btScalar(0.2));
-    const double radius = 0.002;  // and 3 cm long, in cells of 5 cm
+    const double radius = 0.002;  // 3 cm long, with cells of 5 cm
     btRigidBody& rod = scene.m_world.addRigid(
         new btCylinderShapeX(btVector3(btScalar(0.015), btScalar(radius), btScalar(radius))), settings);
     rod.setDamping(0, btScalar(0.2));
@@ -316,7 +316,7 @@ TEST_P(Tunnelling, ATurningRodHitsWithItsTip)
     RigidSettings settings;
     settings.m_mass = btScalar(0.05);
     settings.m_transform = at(-btScalar(0.25), btScalar(0.007), btScalar(0.1));
-    settings.m_spin = btVector3(0, 40, 0);  // the far end goes down with 10 m/s and more
+    settings.m_spin = btVector3(0, 40, 0);  // the far end moves down at 10 m/s and more
     btRigidBody& rod = scene.m_world.addRigid(
         new btCylinderShapeX(btVector3(btScalar(0.25), btScalar(0.004), btScalar(0.004))), settings);
     rod.setLinearFactor(btVector3(0, 0, 0));  // a hinge
@@ -332,7 +332,7 @@ TEST_P(Tunnelling, ATurningRodHitsWithItsTip)
     EXPECT_LT(rod.getAngularVelocity().y(), 1) << "it was stopped";
 }
 
-// Fast soft bodies see rigid ones where they were. What holds these from behind must count all the same.
+// Fast soft bodies collide with rigid ones at their old positions. Supports behind these must count, too.
 TEST_P(Tunnelling, BallOnTheFloorIsNotDrivenIntoItByAFallingBody)
 {
     for (const double speed : {1.0, 3.0, 6.0})

@@ -57,7 +57,7 @@ TEST_P(RigidDroppedOnSoft, StaysOnTopAndTheGroundGetsTheWholeMomentum)
     EXPECT_NEAR(gained, groundImpulse - given, 1e-5 * given);
     EXPECT_NEAR(stoneForce, -settings.m_mass * kGravity, 0.01 * settings.m_mass * kGravity);
     EXPECT_GT(stone.getCenterOfMassPosition().z(), 0.55);  // its lower face was at .5, less what the slab yields
-    // The stone has its reaction already and gets its gravity at the start of the next step.
+    // The stone has its reaction already, and gets gravity at the start of the next step.
     EXPECT_NEAR(stone.getLinearVelocity().z(), kStep * kGravity, 0.05);
 }
 
@@ -118,7 +118,7 @@ TEST(KinematicBox, DragsASoftBodyByFriction)
     KinematicTable table(world);
     btSoftBody& slab = addSlab(world, fem, btScalar(0.001), btScalar(0.25));
     for (int k = 0; k < 120; ++k) table.moveAndStep(btVector3(0, 0, 0));
-    // Set moving at once, the table slips under the body, which gains mu g; then it moves with the table.
+    // After a sudden start the table slides under the body, which accelerates by mu g and then moves with the table.
     for (int k = 0; k < 12; ++k) table.moveAndStep(btVector3(2, 0, 0));
     EXPECT_NEAR(velocityOf(slab).x, 0.5 * kGravity * 12 * kStep, 0.02 * 0.5 * kGravity * 12 * kStep);
     for (int k = 0; k < 90; ++k) table.moveAndStep(btVector3(2, 0, 0));
@@ -126,7 +126,7 @@ TEST(KinematicBox, DragsASoftBodyByFriction)
     EXPECT_NEAR(centerOf(slab).y, 0, 1e-3);
 }
 
-/// A slab of cells of half a metre in a world without weight, its lower face held; and a triangle of its upper face.
+/// A slab with cells of half a metre and a fixed lower face, without gravity; and a triangle of its upper face.
 class CoarseSlab
 {
 public:
@@ -140,7 +140,7 @@ public:
 
     btVector3 middle() const { return middleOf(m_face); }
 
-    // Height of a point over the triangle's plane.
+    // Height of a point above the triangle's plane.
     double heightOf(const btVector3& point) const
     {
         const btSoftBody::Face& face = m_slab->m_faces[m_face];
@@ -208,8 +208,8 @@ TEST_P(HitBetweenNodes, BoxCornerDoesNotPass)
         lowest = std::min(lowest, scene.heightOf(box.getWorldTransform() * corner));
         ASSERT_GT(scene.heightOf(box.getCenterOfMassPosition()), 0.5 * half) << "step " << k;
     }
-    EXPECT_LT(lowest, 0.02);   // it did touch
-    EXPECT_GT(lowest, -half);  // and was stopped
+    EXPECT_LT(lowest, 0.02);   // there was contact
+    EXPECT_GT(lowest, -half);  // and it was stopped
     EXPECT_GT(box.getLinearVelocity().z(), 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Anchors that come, go, or are wrong.
+//
+// Anchors that are added, removed, or invalid.
 #include <gtest/gtest.h>
 
 #include "plugin/scenes/anchor_scene.h"

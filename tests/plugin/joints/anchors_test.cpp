@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Anchors of FEM bodies to rigid ones, with the swap of the solver alone and with the coupled solve.
+//
+// Anchors of FEM bodies to rigid ones, in staggered and in monolithic coupling.
 #include <gtest/gtest.h>
 
 #include "plugin/scenes/anchor_scene.h"
@@ -17,7 +18,7 @@ protected:
     AnchorsTest() : AnchorScene(value(), {0, 0, btScalar(-kGravity)}, worldClass()) {}
 };
 
-/// What takes long.
+/// Tests of a minute of simulated time.
 class MinuteOfAnchorsTest : public AnchorsTest
 {
 };
@@ -78,7 +79,7 @@ TEST_P(AnchorsTest, DynamicBodyHangsOnAHangingSoftOne)
     EXPECT_LT(largestError(cube), 1e-3 * kHalf);
 }
 
-// Strain of 7 % under the load, so that the deformation is part of the scene.
+// Strain of 7 % under the load, so that deformation is part of the scene.
 TEST_P(MinuteOfAnchorsTest, AThousandTimesHeavierBodyHangsStillForAMinute)
 {
     const double density = 8, mass = 1000, load = mass * kGravity;
@@ -125,7 +126,7 @@ TEST_P(AnchorsTest, AFarPivotDrawsItsNodeInWithoutAnExplosion)
     EXPECT_LT(largestError(cube), 0.1);
 }
 
-// By 15 mean edges a second, which would be 250 in steps of 1/1000 s if these took a quarter of an edge, too.
+// At 15 mean edges a second; a quarter of an edge per step would be 250 in steps of 1/1000 s.
 TEST_P(FloatingAnchorsTest, AFarPivotDrawsItsNodeInNoFasterInShortSteps)
 {
     btSoftBody& cube = addCube({0, 0, 0});
@@ -139,7 +140,7 @@ TEST_P(FloatingAnchorsTest, AFarPivotDrawsItsNodeInNoFasterInShortSteps)
         m_world.bullet().stepSimulation(btScalar(1e-3), 0);
         fastest = std::max(fastest, fastestNode(cube));
     }
-    EXPECT_LT(fastest, 2 * fastestPull);  // what is pulled springs after
+    EXPECT_LT(fastest, 2 * fastestPull);  // the body overshoots elastically
     EXPECT_GT(centerOf(cube).z - height, 0.2);
 }
 
@@ -215,7 +216,8 @@ TEST(AnchorMomentumTest, IsConservedWithoutGravityAtAnyMassRatio)
         }
 }
 
-// A stiff bar on a hinge of two anchored nodes: T = 2 pi sqrt(I / (m g d)), and 1 + a^2 / 16 of it at amplitude a.
+// A stiff bar on a hinge of two anchored nodes: the period is T = 2 pi sqrt(I / (m g d)), times 1 + a^2 / 16 at
+// amplitude a.
 TEST_P(AnchorsTest, AStiffBarSwingsAsAPendulum)
 {
     const btScalar length(1), thickness(0.1);
@@ -231,7 +233,7 @@ TEST_P(AnchorsTest, AStiffBarSwingsAsAPendulum)
             bar.appendAnchor(i, &axle, true);
     ASSERT_EQ(bar.m_anchors.size(), 2);
 
-    // Turned about the hinge to 0.1 rad from hanging.
+    // Rotated about the hinge by 0.1 rad from the vertical.
     const btVector3 hinge(0, 0, thickness / 2);
     const Vec3 center = centerOf(bar) - vec3(hinge);
     const double amplitude = 0.1, turn = SIMD_HALF_PI - amplitude - std::atan2(-center.z, center.x);
@@ -262,7 +264,7 @@ TEST_P(AnchorsTest, AStiffBarSwingsAsAPendulum)
     EXPECT_NEAR(period / expected, 1, 0.02);
 }
 
-// What the coupled solve adds: a swapped solver lets the weight read a velocity of g h.
+// Monolithic coupling only: with the swap the weight has a velocity of g h.
 TEST(CoupledAnchorsTest, AHangingWeightIsStill)
 {
     struct Scene : AnchorScene

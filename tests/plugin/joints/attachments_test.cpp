@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Nodes of FEM bodies tied to each other.
+//
+// Attachments between nodes of FEM bodies.
 #include <gtest/gtest.h>
 
 #include "plugin/scenes/anchor_scene.h"
@@ -31,7 +32,7 @@ TEST_F(AttachmentsTest, TwoSoftBodiesHangTogetherByTheirNodes)
     EXPECT_LT(largestError(lower), 1e-5);
 }
 
-// The coupled solver solves islands one after the other; these two do not overlap, and one stands on the ground.
+// The solver treats islands one after another; these two do not overlap, and one stands on the ground.
 TEST(CoupledAttachmentsTest, BodiesOfDifferentIslandsInteract)
 {
     struct Scene : AnchorScene
@@ -72,7 +73,7 @@ TEST_F(AttachmentsTest, DetachedBodiesPart)
     EXPECT_EQ(m_fem.anchors(&lower).size(), 0);
 }
 
-// Though bodies that stay where they are keep their contacts.
+// Although bodies that do not move keep their contacts.
 TEST_F(AttachmentsTest, AttachedNodesLoseContactsOfRestingBodies)
 {
     m_world.addPlane(btScalar(-kHalf));
@@ -123,7 +124,7 @@ TEST_F(AttachmentsTest, AnAttachmentEndsWithTheOtherBody)
 TEST_F(AttachmentsTest, BadAttachmentsAreRejected)
 {
     btSoftBody &a = addCube({0, 0, 0}), &b = addCube({2, 0, 0});
-    EXPECT_THROW(m_fem.attachNodes(&a, 0, &b, 0), std::invalid_argument);  // not yet FEM
+    EXPECT_THROW(m_fem.attachNodes(&a, 0, &b, 0), std::invalid_argument);  // not FEM yet
     m_fem.prepare(&a, kStep);
     m_fem.prepare(&b, kStep);
     const btScalar weights[4] = {1, 1, 0, 0};

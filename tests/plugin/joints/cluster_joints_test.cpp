@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Linear and angular joints of FEM bodies' clusters, with the swap of the solver alone.
+//
+// Linear and angular joints of FEM bodies' clusters, in staggered coupling.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -30,7 +31,7 @@ class JointScenesTest : public EachWorld
 protected:
     explicit JointScenesTest(const btVector3& gravity = {0, 0, btScalar(-kGravity)}) : m_world(GetParam(), gravity) {}
 
-    /// A stiff bar from x = from to x = from + 1, 0.2 m thick, in clusters.
+    /// A stiff bar with clusters from x = from to x = from + 1, 0.2 m thick.
     btSoftBody& addBar(btScalar from, int clusters)
     {
         btSoftBody& bar = m_world.addSoft(
@@ -73,7 +74,7 @@ protected:
         body.appendAngularJoint(specs, body.m_clusters[0], other);
     }
 
-    /// Angular velocity of the rigid body that has the body's momenta.
+    /// Angular velocity of the rigid body with equal momenta.
     static Vec3 spinOf(const btSoftBody& body)
     {
         const Vec3 center = centerOf(body), drift = velocityOf(body);
@@ -117,7 +118,7 @@ TEST_P(JointScenesTest, ABarHangsHingedOnAnother)
     const btVector3 position(1, 0, 0);
     hinge(hanging, nearestCluster(fixed, position), position);
     hanging.m_collisionDisabledObjects.push_back(&fixed);
-    hanging.m_cfg.kDP = hanging.m_cfg.drag = btScalar(0.02);  // a deformable world obeys the latter
+    hanging.m_cfg.kDP = hanging.m_cfg.drag = btScalar(0.02);  // a deformable world uses the latter
     double farthest = 0;
     for (int k = 0; k < 900; ++k)
     {
@@ -126,7 +127,7 @@ TEST_P(JointScenesTest, ABarHangsHingedOnAnother)
     }
     EXPECT_LT(farthest, 5e-3);
     const Vec3 center = centerOf(hanging);
-    EXPECT_LT(center.z, -0.45);  // it has swung down
+    EXPECT_LT(center.z, -0.45);  // it has swung downwards
     const Vec3 force = (1 / double(kStep)) * impulse(hanging, 0);
     EXPECT_LT(norm(force - Vec3{0, 0, 40 * kGravity}), 1e-3 * 40 * kGravity);
     EXPECT_LT(m_fem.anchors(&hanging)[0].m_error, 1e-5);
@@ -194,7 +195,7 @@ TEST_P(FloatingJointScenesTest, AnAngularJointLeavesTheSpinAboutItsAxisFree)
 
 TEST_P(FloatingJointScenesTest, TheImpulsesAreGivenOnce)
 {
-    // Bullet's own cluster solver would push the ball, and tell no node.
+    // Bullet's own cluster solver would move the ball without a reaction on the nodes.
     btSoftBody& bar = addBar(0, 5);
     btRigidBody& ball = addBall(10, {btScalar(1.2), 0, 0});
     hinge(bar, &ball, btVector3(1, 0, 0));

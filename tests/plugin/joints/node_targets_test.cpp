@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Groups of nodes with targets.
+//
+// Groups of nodes with target poses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ TEST_F(NodeTargetsTest, AGroupFollowsATransformOfItsRestShape)
         ASSERT_LT(farthest(pose), 1e-6);
     }
     m_world.step(10);
-    EXPECT_LT(farthest(pose), 1e-6);  // and stays
+    EXPECT_LT(farthest(pose), 1e-6);  // and stays there
 }
 
 TEST_F(NodeTargetsTest, AGroupFollowsPositions)
@@ -107,7 +108,7 @@ TEST_F(NodeTargetsTest, BadGroupIsRejectedBeforeAnyNodeIsChanged)
     EXPECT_NEAR(velocityOf(m_bar).z, -kGravity * 30 * double(kStep), 1e-3);
 }
 
-// The factor knows nothing of new pins: that costs iterations, but the body is not factored anew on the spot.
+// The factor does not include new pins: that costs iterations, but the body is not factored again at once.
 TEST(NodeTargetsOfALargeBodyTest, PinningAtRunTimeCostsFewIterations)
 {
     btFemSoftBodySolver fem;

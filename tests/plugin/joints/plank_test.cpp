@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// A rigid body falls on another that hangs between FEM bodies by their anchors.
+//
+// A rigid body falls on another one that is anchored between FEM bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace
 constexpr double kPlank = 0.4, kCushion = 0.2, kWidth = 0.8, kThick = 0.12, kCrate = 0.3;  // [m]
 constexpr double kPlankMass = 15, kCrateMass = 12;                                         // [kg]
 
-// Two cushions from fixed piers to a plank between them.
+// A plank between two cushions, which are fixed to piers.
 class PlankBetweenCushions : public testing::TestWithParam<Coupling>
 {
 protected:
@@ -62,8 +63,8 @@ protected:
     double m_weight = (kPlankMass + kCrateMass) * kGravity;  // [N]
 };
 
-// Bullet's contact rows move the plank in every sweep, and the anchors' system answers between them: what is remembered
-// of the rounds before is of another system then.
+// Bullet's contact rows move the plank in each sweep, and the anchors' system is solved in between: quantities stored
+// from earlier outer iterations belong to another system then.
 TEST_P(PlankBetweenCushions, StopsAFastCrateAndCarriesIt)
 {
     RigidSettings settings;
@@ -83,7 +84,7 @@ TEST_P(PlankBetweenCushions, StopsAFastCrateAndCarriesIt)
         }
     }
     EXPECT_LT(apart, 5e-3);
-    EXPECT_LT(fastest, 2.5);  // what falls with 4 m/s and sticks to the plank goes on with 1.8
+    EXPECT_LT(fastest, 2.5);  // a common velocity after an inelastic impact at 4 m/s is 1.8
     EXPECT_GT(crate.getWorldTransform().getOrigin().z(), kCrate / 2);
     double carried = 0;
     for (const btSoftBody* cushion : m_cushions)

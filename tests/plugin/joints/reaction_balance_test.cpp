@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Momentum balance of held bodies in every step: reactions + loads + contacts + anchors = change of momentum / h.
+//
+// Momentum balance of fixed bodies in each step: reactions + loads + contacts + anchors = change of momentum / h.
 #include <algorithm>
 #include <cmath>
 
@@ -12,14 +13,14 @@ namespace bullet_fem
 namespace
 {
 
-/// A way to make steps, and a material.
+/// Step settings and a material.
 struct BalanceCase
 {
     const char* m_name;
     double m_damping;  // of the step [-]
     btFemMaterial m_material;
     bool m_hasContact = false;
-    double m_tolerance = 0;  // besides rounding: damping by mass acts on the velocities before they are smoothed
+    double m_tolerance = 0;  // besides rounding: mass damping acts on the velocities before smoothing
 };
 
 btFemMaterial softMaterial()
@@ -52,7 +53,7 @@ const BalanceCase kBalanceCases[] = {
          [](btFemMaterial& m)
          {
              m.m_law = btFemElasticLaw::neoHooke;
-             m.m_youngModulus = btScalar(2e4);  // so soft that quasi-Newton iterations follow
+             m.m_youngModulus = btScalar(2e4);  // soft, so that quasi-Newton iterations follow
          })},
     {"orthotropic", 0, softMaterial([](btFemMaterial& m) { m.m_law = btFemElasticLaw::orthotropic; })},
     {"yields", 0, softMaterial([](btFemMaterial& m) { m.m_yieldStress = btScalar(5e3); })},
@@ -84,7 +85,7 @@ protected:
 
     static double tolerance() { return kRounding + GetParam().m_tolerance; }
 
-    // How far the balance is off in some steps, over the weight; moments by 1 m.
+    // Maximum error of the balance over some steps, relative to the weight; moments with an arm of 1 m.
     struct Worst
     {
         double m_force = 0, m_moment = 0, m_momentAboutY = 0;
@@ -106,7 +107,7 @@ protected:
         return worst;
     }
 
-    // Above it a rigid box that falls onto its end, if the case has contact.
+    // Adds a rigid box that falls onto the beam's end, if the case has contact.
     void addBox()
     {
         if (!GetParam().m_hasContact) return;
@@ -135,7 +136,7 @@ TEST_P(HeldBalance, IsExactInEveryStepForAClampedBeam)
     EXPECT_LT(worst.m_momentAboutY, tolerance());
 }
 
-// On a line of pins along y: no forces at them have a moment about it.
+// Pins on a line along y: their forces have no moment about it.
 TEST_P(HeldBalance, IsExactForAPendulumButAboutItsAxis)
 {
     btSoftBody& beam = *makeSoftBox(m_world, m_fem, shortBeam());
@@ -154,8 +155,8 @@ TEST_P(HeldBalance, IsExactForAPendulumButAboutItsAxis)
 INSTANTIATE_TEST_SUITE_P(Cases, HeldBalance, testing::ValuesIn(kBalanceCases),
                          [](const auto& suite) { return std::string(suite.param.m_name); });
 
-// A beam that is pinned at one end; at the other a rigid box is anchored and a spring pulls; a second box falls onto
-// the pinned nodes themselves.
+// A beam pinned at one end; at the other end a rigid box is anchored and a spring pulls; a second box falls onto the
+// pinned nodes themselves.
 class HeldByAll : public testing::TestWithParam<Coupling>
 {
 };
@@ -201,7 +202,7 @@ TEST_P(HeldByAll, HasOneBalanceOfPinsAnchorsSpringsAndContact)
 INSTANTIATE_TEST_SUITE_P(Couplings, HeldByAll, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& suite) { return couplingName(suite.param); });
 
-// Led nodes that turn and go, of bodies that share their model.
+// Prescribed nodes that rotate and translate, on bodies with a common model.
 TEST(HeldBodies, EachHasItsOwnBalance)
 {
     btFemSoftBodySolver fem;
@@ -219,7 +220,7 @@ TEST(HeldBodies, EachHasItsOwnBalance)
     std::vector<int> led = nodesWithin(*beams[0], {-1, -1, -1}, {-1, 1, 1});
     for (int k = 1; k <= 60; ++k)
     {
-        for (int b = 1; b < 4; ++b)  // the first one falls freely
+        for (int b = 1; b < 4; ++b)  // the first body falls freely
         {
             btTransform pose(btQuaternion(btVector3(0, 0, 1), btScalar(0.01 * b * k)),
                              btVector3(0, 0, btScalar(0.002 * b * k)));
@@ -237,7 +238,7 @@ TEST(HeldBodies, EachHasItsOwnBalance)
     }
 }
 
-// Chambers press on held nodes, too; they are inner forces of the body.
+// Chambers act on fixed nodes, too; their forces are internal to the body.
 TEST(HeldBodies, PressureIsNoLoad)
 {
     btFemSoftBodySolver fem;
@@ -255,7 +256,7 @@ TEST(HeldBodies, PressureIsNoLoad)
     {
         balance.note();
         world.step();
-        if (k == 59) fem.removeActuator(&body, handle);  // before anybody asks
+        if (k == 59) fem.removeActuator(&body, handle);  // before the reactions are read
         const ReactionBalance::Error error = balance.error();
         EXPECT_LT(norm(error.m_force) / balance.weight(), 10 * kRounding);
         EXPECT_LT(norm(error.m_moment) / balance.weight(), 10 * kRounding);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Reaction forces and moments of pinned and led nodes, and of anchors, against weights, levers and rigid bodies.
+//
+// Reaction forces and moments of pinned and of prescribed nodes and of anchors, against weights, levers and rigid
+// bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +23,7 @@ void expectNear(const Vec3& expected, const Vec3& found, double error)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(expected[c], found[c], error) << c;
 }
 
-// Properties in each class of Bullet's worlds: implicit Euler, so that all comes to rest.
+// Runs in each class of Bullet's worlds, with implicit Euler, so that bodies settle.
 class ReactionsAtRest : public EachWorld
 {
 protected:
@@ -70,7 +72,7 @@ TEST_P(ReactionsAtRest, ClampBearsTheMomentOfTheWeight)
         ofWeight += cross(vec3(beam.m_nodes[i].m_x) - clamp, Vec3{0, 0, -m_mass[i] * kGravity});
     expectNear({0, 0, kBeamWeight}, vec3(all.m_force), 1e-5 * kBeamWeight);
     expectNear(-ofWeight, vec3(all.m_moment), 2e-5 * kBeamWeight);
-    expectNear({0, -kBeamWeight, 0}, vec3(all.m_moment), 1e-3 * kBeamWeight);  // m g L / 2, L = 2 m, hardly bent
+    expectNear({0, -kBeamWeight, 0}, vec3(all.m_moment), 1e-3 * kBeamWeight);  // m g L / 2, L = 2 m, nearly straight
 }
 
 TEST_P(ReactionsAtRest, SupportsShareALoadByTheLever)
@@ -139,7 +141,7 @@ TEST_P(ReactionsAtRest, NothingIsKnownOfOtherBodies)
     EXPECT_EQ(1, fem.reaction(&beam, some, 3, {0, 0, 0}).m_count);
     EXPECT_EQ(0, fem.reaction(&beam, nullptr, 3, {0, 0, 0}).m_count);
     beam.setMass(nodesWithin(beam, {-1, -1, -0.1}, {1, 1, 0.1}).at(0), 0);
-    fem.refactor(&beam);  // for the new pin
+    fem.refactor(&beam);  // to include the new pin
     expectNothing(&beam);
     m_world.step();
     EXPECT_GT(fem.reactionForce(&beam, pinned).length(), 0);
@@ -230,7 +232,7 @@ TEST_P(AnchorReactions, EqualTheLoadsOnTheRigidBody)
     const btFemReaction ofHook = scene.m_fem.anchorReaction(&cube, &hook, {1, 0, 0});
     const double weight = AnchorScene::kCubeWeight + 40 * kGravity;
     expectNear({0, 0, weight}, vec3(ofHook.m_force), 1e-2 * weight);
-    expectNear({0, weight, 0}, vec3(ofHook.m_moment), 1e-2 * weight);  // a metre beside it
+    expectNear({0, weight, 0}, vec3(ofHook.m_moment), 1e-2 * weight);  // at an arm of a metre
     EXPECT_EQ(0, scene.m_fem.anchorReaction(&cube, nullptr, {0, 0, 0}).m_count);
 }
 

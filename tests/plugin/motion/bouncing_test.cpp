@@ -55,7 +55,7 @@ struct BounceSteps
     double m_numericalDamping, m_contactDamping;  // [-]
 };
 
-// Two bodies that meet at kImpactSpeed, along z. Whatever the soft one meets has restitution 1.
+// Two bodies that meet at kImpactSpeed along z. The soft body's partner has restitution 1.
 class Impactors
 {
 public:
@@ -86,7 +86,7 @@ public:
         m_startEnergy = m_maxEnergy = energy();
     }
 
-    // Steps until they have parted, three seconds at most; the share of the speed that they part with.
+    // Steps until they have separated, for three seconds at most; returns the separation speed over the impact speed.
     double returns()
     {
         int parted = 0;
@@ -165,7 +165,7 @@ private:
         return impulseOn(m_world.fem(), *m_soft, m_scene == BounceScene::onBed ? m_rigid : nullptr);
     }
 
-    // At which they part; of a body on the floor or on what lies there its own.
+    // Separation speed; for a body on the floor or on a body there, its own speed.
     double speed() const
     {
         const double other = m_other ? velocityOf(*m_other).z : m_rigid ? double(m_rigid->getLinearVelocity().z()) : 0;
@@ -175,7 +175,7 @@ private:
     double energyOf(const btSoftBody& soft) const
     {
         const btFemBodyRecord* record = btFemCoupling::record(m_world.fem(), soft);
-        if (!record || !record->isFem()) return motionOf(soft).m_energy;  // it has made no step yet
+        if (!record || !record->isFem()) return motionOf(soft).m_energy;  // not stepped yet
         return mechanicalEnergy(record->fem().m_body) + (hasGravity() ? massOf(soft) * kGravity * centerOf(soft).z : 0);
     }
 
@@ -198,14 +198,14 @@ protected:
     }
 };
 
-// Of what is set and of their own elasticity, which the bodies show with none set, the larger counts. Those that ring
-// with what contact has not lost may fall short of it: there is nothing to give.
+// The larger of the set restitution and the bodies' elastic rebound counts, which is measured with none set. Bodies
+// whose vibrations contain the remaining energy may return less.
 TEST_P(Bouncing, ReturnsTheSetRestitution)
 {
     constexpr double kOff = 0.1;      // of the returns [-]
     constexpr double kRinging = 0.9;  // of the energy at the start [-]
-    // Likewise: what swings that the step does not resolve go up and down, and what stiff bodies swell by that begin to
-    // spin from one step to the next.
+    // The energy may rise by this factor in between: by unresolved vibrations, and by the expansion of stiff bodies
+    // that start to spin within a step.
     const BounceSteps& steps = std::get<2>(GetParam());
     const double kSwing = steps.m_numericalDamping == steps.m_contactDamping ? 1.05 : 1.1;
     for (const double young : {1e5, 1e6, 1e7, 1e8})
@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(Soft, Bouncing,
                                           testing::Bool(), testing::ValuesIn(kEverySteps)),
                          nameOfBounce);
 
-// With the swap alone a flat box at 60 Hz is first felt centimetres deep in the bed, and pressed out of it.
+// In staggered coupling a flat box at 60 Hz is detected centimetres deep in the bed, and is pushed out.
 constexpr BounceSteps kBedSteps[] = {{Coupling::swap, 240, 0, 0},   {Coupling::swap, 240, 1, 1},
                                      {Coupling::coupled, 60, 0, 0}, {Coupling::coupled, 60, 1, 1},
                                      {Coupling::coupled, 60, 0, 1}, {Coupling::coupled, 240, 0, 0},
@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(Rigid, Bouncing,
                                           testing::ValuesIn(kBedSteps)),
                          nameOfBounce);
 
-// An impulse at one point for both: neither momentum changes, off the centres either.
+// The impulse acts at one common point: linear and angular momentum are conserved, also in eccentric impacts.
 class BouncingMomentum : public testing::TestWithParam<std::tuple<Coupling, double>>
 {
 };
@@ -321,7 +321,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BouncingMomentum,
                                     (std::get<1>(suite.param) > 0 ? "_euler" : "_secondOrder");
                          });
 
-// Bullet's threshold: slower impacts give nothing back.
+// Bullet's threshold: slower impacts have no restitution.
 TEST(BouncingThreshold, EqualsThatOfBullet)
 {
     for (const double speed : {0.15, 0.25})
@@ -343,7 +343,7 @@ TEST(BouncingThreshold, EqualsThatOfBullet)
     }
 }
 
-// A box that lies on the floor gives no way, as light as it may be.
+// A box on the floor has support, however light it is.
 TEST(BouncingOnABox, ReturnsTheSetRestitutionOnTheFloor)
 {
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})

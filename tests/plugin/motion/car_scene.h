@@ -14,16 +14,16 @@
 namespace bullet_fem
 {
 
-/// A car whose four tyres are soft, on hubs that turn on Bullet's hinges. It drives along x.
+/// A car with four soft tyres on hubs with Bullet's hinges. It drives along x.
 class Car
 {
 public:
     static constexpr double kTyre = 0.4, kHub = 0.15, kWidth = 0.2;  ///< radii and width of a wheel [m]
     static constexpr double kChassisMass = 200, kHubMass = 30;       ///< [kg]
     static constexpr double kTyreDensity = 500;                      ///< [kg/m3]; a tyre of 49 kg
-    static constexpr double kTyreDamping = 0.005;                    ///< of its material [s]
+    static constexpr double kTyreDamping = 0.005;                    ///< of the tyre's material [s]
 
-    /// On the ground z = 0.
+    /// Adds the car on the ground z = 0.
     Car(FemWorld& world, double youngModulus, double hubMass = kHubMass) : m_world(world), m_chassis(addChassis(world))
     {
         for (const double x : {-0.8, 0.8})
@@ -43,7 +43,7 @@ public:
     Car(const Car&) = delete;
     Car& operator=(const Car&) = delete;
 
-    /// A step with that torque from the chassis on every wheel [N m].
+    /// Makes a step with this torque from the chassis on each wheel [N m].
     void step(double torque, double h)
     {
         const btVector3 wheel(0, btScalar(torque), 0);

@@ -11,7 +11,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTorque = 60;  // on every wheel [N m]
+constexpr double kTorque = 60;  // on each wheel [N m]
 
 btFemSolverInfo stepOf(double numericalDamping)
 {
@@ -29,8 +29,8 @@ double speedAfter(double seconds, double rate, double youngModulus)
     return car.speed();
 }
 
-// The rims of its tyres must not be taken for round edges, or they are braked by their load's lever v h / 2. In steps
-// of 1/240 s it has 7.1 and 6.2 m/s after ten seconds.
+// The rims of its tyres must not count as round edges, which would brake the car by its load's lever v h / 2. In steps
+// of 1/240 s its speed is 7.1 and 6.2 m/s after ten seconds.
 TEST(CarOnSoftTyres, IsAsFastAsWithSmallSteps)
 {
     for (const double young : {3e5, 1e6})
@@ -41,7 +41,7 @@ TEST(CarOnSoftTyres, IsAsFastAsWithSmallSteps)
     }
 }
 
-// Of a hub that a torque would turn by much more than the tyre lets it: the arc of its anchors is that of its spin.
+// The torque on a hub exceeds the tyre's resistance: its anchors move along the arc of its spin.
 TEST(CarOnSoftTyres, HoldsItsAnchorsUnderTorque)
 {
     for (const double damping : {0.0, 1.0})

@@ -19,17 +19,17 @@ namespace
 struct Press
 {
     const char* m_name;
-    double m_poisson, m_thickness, m_seconds;  // of the upper plate [m], and of its way [s]
+    double m_poisson, m_thickness, m_seconds;  // of the upper plate [m], and duration of its motion [s]
 };
 
 class Crushed : public testing::TestWithParam<std::tuple<Coupling, Press>>
 {
 };
 
-constexpr double kEdge = 0.5, kPressed = 0.35;  // of the cube, and its height between the plates [m]
+constexpr double kEdge = 0.5, kPressed = 0.35;  // edge of the cube, and its height between the plates [m]
 
-// A cube between two plates: no node is in one of them by more than a hundredth of its size. The upper
-// one may go by half of its thickness within a step.
+// A cube between two plates: no node penetrates by more than a hundredth of the size. The upper plate may move by half
+// of its thickness within a step.
 TEST_P(Crushed, ACubeStaysBetweenThePlates)
 {
     const auto& [coupling, press] = GetParam();
@@ -53,7 +53,7 @@ TEST_P(Crushed, ACubeStaysBetweenThePlates)
         const double before = std::max(kPressed, kEdge - 0.15 * k * kStep / press.m_seconds);
         const double height = std::max(kPressed, kEdge - 0.15 * (k + 1) * kStep / press.m_seconds);
         plate.getMotionState()->setWorldTransform(at(0, 0, btScalar(height + half)));
-        double deepest = 0;  // as the step begins
+        double deepest = 0;  // at the start of the step
         for (int i = 0; i < cube.m_nodes.size(); ++i)
         {
             const double z = cube.m_nodes[i].m_x.z();
@@ -70,8 +70,8 @@ class Squashed : public testing::TestWithParam<Coupling>
 {
 };
 
-// A column of 1 kPa that falls on a plane so fast that its whole height is gone in a step and a half. The nodes of its
-// sides do not look down, but they are on their way into the plane; they went 10 cm into it.
+// A column of 1 kPa falls on a plane so fast that it moves by its height in a step and a half. The nodes of its sides
+// do not face downwards, but move into the plane; an earlier solver let them in by 10 cm.
 TEST_P(Squashed, AColumnStaysAboveThePlane)
 {
     for (const double height : {0.0735, 0.05, 0.02})
@@ -134,8 +134,8 @@ protected:
     static constexpr double kYoung = 1e6;  // [Pa]
 };
 
-// Without friction its stress is that of a bar, and the plate is spared half of its weight; with friction its sides
-// bulge, and the force is that of small steps.
+// Without friction its stress is that of a bar, and half of its weight does not load the plate; with friction its sides
+// bulge, and the reference is the force in small steps.
 TEST_P(PressedCube, PressesWithTheForceOfItsMaterial)
 {
     const double poisson = std::get<1>(GetParam()), area = kEdge * kEdge;
@@ -157,8 +157,8 @@ class Overloaded : public testing::TestWithParam<std::tuple<Coupling, double, do
 {
 };
 
-// Under a hundred or a thousand times its weight a soft cube is squeezed to nothing. Steps that begin with a node deep
-// in the ground say so; those within the body go there where elements are turned inside out.
+// Under a hundred or a thousand times its weight a soft cube is crushed. Flags report steps that start with a node deep
+// in the ground; inner nodes get there by inverted elements.
 TEST_P(Overloaded, ReportsACrushedCube)
 {
     const auto& [coupling, size, ratio] = GetParam();

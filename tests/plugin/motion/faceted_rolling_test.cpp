@@ -18,8 +18,8 @@ namespace bullet_fem
 namespace
 {
 
-// A body with few faces rolls from corner to corner, and a soft one is pressed flat: the patch where it touches does
-// not move as fast as the curvature of its shape at rest would have it.
+// A body of few facets rolls from corner to corner, and a soft one is flattened: the contact area moves slower than the
+// curvature of the rest shape predicts.
 
 constexpr double kHalfEdge = 0.16;  // of an icosahedron [m]
 
@@ -46,8 +46,8 @@ SurfaceMesh icosahedron()
 enum class Faceted
 {
     solid,  // an icosahedron of twenty elements
-    drawn,  // one that is drawn on a cage, and collides
-    ball    // two elements from its middle to its surface
+    drawn,  // the icosahedron as render surface of a cage, with collision
+    ball    // two elements along the radius
 };
 
 struct FacetedBody
@@ -55,7 +55,7 @@ struct FacetedBody
     const char* m_name;
     Faceted m_shape;
     double m_youngModulus;  // [Pa]
-    double m_speed;         // to begin with [m/s]
+    double m_speed;         // initial speed [m/s]
 };
 
 btSoftBody* makeFaceted(FemWorld& world, Faceted shape)

@@ -14,7 +14,7 @@ namespace
 
 constexpr double kPiece = 0.5, kStart = -2, kEnd = 28;  // [m]
 constexpr int kPieces = static_cast<int>((kEnd - kStart) / kPiece);
-const btVector3 kHalf(btScalar(kPiece / 2), 2, btScalar(0.5));  // of a piece [m]
+const btVector3 kHalf(btScalar(kPiece / 2), 2, btScalar(0.5));  // of a segment [m]
 
 btVector3 corner(const btVector3& half, int k)
 {

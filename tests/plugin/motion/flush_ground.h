@@ -13,7 +13,7 @@ class btTriangleMesh;
 namespace bullet_fem
 {
 
-/// What a flat ground is made of.
+/// Kinds of flat ground.
 enum class Ground
 {
     oneBox,
@@ -24,14 +24,14 @@ enum class Ground
     meshTiles,
     meshBoxes,
     heightfield,
-    mesh  ///< one, whose squares have their diagonals in turn
+    mesh  ///< a mesh, whose squares have alternating diagonals
 };
 
 std::string groundName(Ground ground);
 
-/// A ground whose surface is the plane z = 0, in pieces of half a metre along x, whose seams are at whole and half
-/// metres. The pieces from `edge` [m] on lie `down` [m] lower (negative: higher); a heightfield, a mesh and one box are
-/// flat.
+/// A ground with the surface z = 0, in segments of half a metre along x, whose seams are at multiples of half a metre.
+/// The segments from x = `edge` [m] on are lower by `down` [m] (negative: higher); a heightfield, a mesh and a single
+/// box are flat.
 class FlushGround
 {
 public:

@@ -18,9 +18,9 @@ namespace bullet_fem
 inline constexpr double kLength = 0.3, kThickness = 0.1, kLinkMass = 1;  ///< of a link [m], [m], [kg]
 inline constexpr double kPlate = 0.04;                                   ///< thickness of the plates between links [m]
 inline constexpr double kDamping = 0.02;                                 ///< of stiffness [s]
-inline constexpr double kRise = 2;                                       ///< in which a load is raised slowly [s]
+inline constexpr double kRise = 2;                                       ///< duration of a slow loading [s]
 
-/// How the load comes.
+/// The time course of the load.
 enum class Loading
 {
     slow,
@@ -29,13 +29,13 @@ enum class Loading
 
 struct Chain
 {
-    double m_ratio;   ///< mass that hangs, over that of a link [-]
-    double m_strain;  ///< that all that hangs gives the links [-]
+    double m_ratio;   ///< suspended mass over a link's mass [-]
+    double m_strain;  ///< strain of the links under the whole load [-]
     int m_links;
     int m_frequency;  ///< [1/s]
 };
 
-/// Links with nine anchors an end, plates of a link's mass between them, and a weight.
+/// Links with nine anchors at each end, plates of a link's mass between them, and a weight.
 class HangingScene : public AnchorScene
 {
 public:
@@ -80,7 +80,8 @@ public:
 
     double reaction() const { return impulseOf(*m_links.front(), m_roof).z / m_step; }
 
-    /// Kinetic and of height: what is left for strain is never less than nothing, so this never exceeds its start [J].
+    /// Kinetic and potential energy: elastic energy is never negative, so that the sum never exceeds its initial value
+    /// [J].
     double energy() const
     {
         double sum = 0;
@@ -91,8 +92,8 @@ public:
         return sum;
     }
 
-    double m_step, m_mass = 0;  // [s]; of all that hangs [kg]
-    double m_farthest = 0;      // an anchored node was from its place so far [m]
+    double m_step, m_mass = 0;  // [s]; total suspended mass [kg]
+    double m_farthest = 0;      // maximum distance of an anchored node from its place [m]
     int m_flags = 0;
     std::vector<btRigidBody*> m_parts;
 
@@ -135,7 +136,7 @@ private:
     std::vector<btSoftBody*> m_links;
 };
 
-/// Hangs a chain, and looks at it.
+/// Suspends a chain and observes it.
 class Hanging : public testing::TestWithParam<std::tuple<Coupling, Loading, Chain>>
 {
 protected:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Heavy bodies on light soft links, and light ones on heavy links: nothing lets go, and nothing gains energy.
+// Heavy bodies on light soft links, and light ones on heavy links: anchors hold, and the energy never grows.
 #include "plugin/motion/hanging_scene.h"
 
 namespace bullet_fem
@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Chain{1000, 1e-2, 1, 60}, Chain{1000, 0.1, 1, 60}, Chain{1000, 1e-3, 1, 240},
                                      Chain{1000, 0.1, 1, 240}, Chain{1000, 1e-2, 4, 60})),
     nameOf);
-// Far beyond where the law of the material is one for small strains, anchors hold all the same.
+// Far beyond the range of the small-strain law anchors still hold.
 class OverloadedLink : public testing::TestWithParam<Coupling>
 {
 };
@@ -47,7 +47,7 @@ TEST_P(OverloadedLink, IsStretchedToTwiceItsLengthAndHolds)
 INSTANTIATE_TEST_SUITE_P(Couplings, OverloadedLink, couplings,
                          [](const auto& suite) { return couplingName(suite.param); });
 
-/// A soft block and a free cylinder that hold each other in space, until a program moves the block away.
+/// A soft block and a free cylinder anchored to each other in free space, until the program moves the block away.
 class FarAnchors : public testing::TestWithParam<std::tuple<Coupling, int>>
 {
 };
@@ -70,7 +70,7 @@ TEST_P(FarAnchors, AreDrawnInWithoutGainingEnergy)
     cylinder.setActivationState(DISABLE_DEACTIVATION);
     AnchorScene::anchorAll(block, AnchorScene::nodesAt(block, 0.15), cylinder);
     scene.m_world.step(10);
-    const double turn = 2 * seed;  // directions that have nothing to do with each other
+    const double turn = 2 * seed;  // unrelated directions
     block.translate(btScalar(kAway) * btVector3(btScalar(std::cos(turn)), btScalar(std::sin(turn)), 0));
     block.addVelocity(btVector3(btScalar(0.4 * std::sin(turn)), btScalar(0.3), btScalar(-0.3)));
     cylinder.setLinearVelocity(btVector3(btScalar(-0.3), btScalar(0.4), btScalar(0.2 * std::cos(turn))));
@@ -79,7 +79,8 @@ TEST_P(FarAnchors, AreDrawnInWithoutGainingEnergy)
     const auto momentum = [&] { return motionOf(block).m_linear + motionOf(cylinder).m_linear; };
     const double start = energy(), together = 1 / (1 / massOf(block) + 1 / kMass);
     const Vec3 before = momentum();
-    // What brings them together at a quarter of an edge a step moves as fast, and pulls at what turns.
+    // The anchor closes the gap at a quarter of an edge per step, so that bodies reach that speed, and acts on rotating
+    // bodies.
     const double pull = 0.25 * 0.1 / double(kStep), allowed = start + together * pull * pull;
     for (int k = 0; k < 300; ++k)
     {
@@ -96,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Directions, FarAnchors, testing::Combine(couplings, tes
                                     std::to_string(std::get<1>(suite.param));
                          });
 
-// Bullet's islands know nothing of anchors, and leave out what does not push.
+// Bullet's islands ignore anchors, and leave out bodies without contact response.
 TEST(AnchorIslands, AreUnitedByAnchorsAlone)
 {
     AnchorScene scene(Coupling::coupled);

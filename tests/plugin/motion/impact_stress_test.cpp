@@ -12,10 +12,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSeconds = 1.5;  // in which the block falls, tips over and lies still [s]
+constexpr double kSeconds = 1.5;  // the block falls, tips over and settles [s]
 
-/// Largest von Mises stress of a tilted block of 30 kg that lands from half a metre, while it moves and as it lies
-/// [Pa].
+/// Maximum von Mises stress of a tilted block of 30 kg dropped from half a metre, in motion and at rest [Pa].
 struct LandingStress
 {
     double m_largest = 0, m_last = 0;
@@ -49,8 +48,8 @@ LandingStress land(double youngModulus, double numericalDamping, double rate)
     return stress;
 }
 
-// What the block turns by within a step is no strain: impacts of 1/1920 s are no gentler. (Steps of 1/60 s, longer than
-// the contact, show .2 to .9 of their stress.)
+// Rotation within a step is no strain: impacts in steps of 1/1920 s have at least equal stress. (Steps of 1/60 s,
+// longer than the contact, give .2 to .9 of their stress.)
 TEST(LandingBlock, IsStressedNoMoreThanInSmallSteps)
 {
     for (const double young : {1e7, 1e8, 1e9})

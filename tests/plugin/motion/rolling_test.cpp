@@ -38,7 +38,7 @@ btSoftBody& addBall(FemWorld& world, const BallMaterial& ball, const btVector3& 
     return world.addSoft(body);
 }
 
-/// Rolls along x without slip on a surface below.
+/// Sets the velocities of rolling along x without slip.
 void roll(btSoftBody& ball, double speed)
 {
     const Vec3 center = centerOf(ball);
@@ -53,16 +53,16 @@ void roll(btSoftBody& ball, double speed)
 struct Descent
 {
     double m_degrees, m_youngModulus;
-    double m_converged;  // speed after six seconds, of steps of 1/1920 s [m/s]
-    double m_min;        // share of it that the ball reaches at 60 Hz
+    double m_converged;  // speed after six seconds in steps of 1/1920 s [m/s]
+    double m_min;        // its minimum share at 60 Hz
 };
 
 class Incline : public testing::TestWithParam<std::tuple<Coupling, Descent>>
 {
 };
 
-// A sphere that is rigid has 7.30 and 14.4 m/s after six seconds; a soft one loses some of it to its damping. What
-// rolls with v must not be braked as if it stood v h before its weight: 2.17 and 4.82 m/s.
+// A rigid sphere has 7.30 and 14.4 m/s after six seconds; a soft one is slowed by its damping. Contact must act at the
+// position at the end of the step: v h behind, the ball would have 2.17 and 4.82 m/s.
 TEST_P(Incline, IsRolledDownAsFastAsWithSmallSteps)
 {
     const auto& [coupling, descent] = GetParam();
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Rolling, Incline,
 class Rolling : public testing::TestWithParam<Coupling>
 {
 protected:
-    /// A second of a ball with another body that it presses on, and of nothing else.
+    /// Runs a second of a ball pressed against another body, without other contacts.
     template <class Other>
     static void expectAngularMomentumKept(FemWorld& world, const btSoftBody& ball, const Other& other)
     {
@@ -122,11 +122,12 @@ TEST_P(Rolling, LosesNoMoreOnTheFlatThanWithSmallSteps)
     btSoftBody& ball = addBall(world, {1e6, 0.005}, {0, 0, btScalar(kRadius)});
     roll(ball, 1);
     world.step(120);
-    EXPECT_GT(velocityOf(ball).x, 0.96 * 0.759);  // of steps of 1/1920 s
+    EXPECT_GT(velocityOf(ball).x, 0.96 * 0.759);  // the speed in steps of 1/1920 s
 }
 
-// Its nodes go along chords of w h, which damping must not take for strain: it would be 24 % wider with .1 s. What is
-// left is the length of implicit Euler's chords, (w h)^2 / 2 = 5.6 %, and its bulge at the ground.
+// Its nodes move along chords of angle w h, which damping must not treat as strain: the ball would be 24 % wider with
+// .1 s. The remainder is the length of implicit Euler's chords, (w h)^2 / 2 = 5.6 %, and the ball's bulge at the
+// ground.
 TEST_P(Rolling, DoesNotWidenWithStrongDamping)
 {
     for (const double stiffnessDamping : {0.005, 0.02, 0.05, 0.1})
@@ -147,8 +148,8 @@ TEST_P(Rolling, DoesNotWidenWithStrongDamping)
     }
 }
 
-// Nothing else acts on the two: the ball pushes the block back. A cube, as what Bullet does to the spin of other bodies
-// loses momentum.
+// An isolated pair: the ball pushes the block back. The block is a cube, because Bullet's gyroscopic term for other
+// bodies does not conserve momentum.
 TEST_P(Rolling, KeepsTheAngularMomentumOnAFreeBlock)
 {
     FemWorld world(WorldClass::softRigid, GetParam(), btVector3(0, 0, 0));
@@ -157,7 +158,7 @@ TEST_P(Rolling, KeepsTheAngularMomentumOnAFreeBlock)
     RigidSettings settings;
     settings.m_mass = 200;
     settings.m_transform = at(0, 0, -1);
-    settings.m_velocity = btVector3(0, 0, btScalar(0.5));  // they are pressed together
+    settings.m_velocity = btVector3(0, 0, btScalar(0.5));  // they press on each other
     btRigidBody& block = addRigidBox(world, {2, 2, 2}, settings);
     expectAngularMomentumKept(world, ball, block);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Bodies in steps without numerical damping, in Bullet worlds: what bounces, rolls and rests. The free motion has tests
-// of its own in tests/fem.
+// Bodies in steps without numerical damping in Bullet worlds: bouncing, rolling and resting. Free motion is tested in
+// tests/fem.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,8 +51,8 @@ btSoftBody& addRubberBall(FemWorld& world, double young, double stiffnessDamping
 
 struct RubberDrop
 {
-    double m_youngModulus, m_rate;  // [Pa], steps a second
-    double m_min, m_max;            // of the speed that it returns with [-]
+    double m_youngModulus, m_rate;  // [Pa], steps per second
+    double m_min, m_max;            // limits of rebound speed over impact speed [-]
 };
 
 void PrintTo(const RubberDrop& drop, std::ostream* stream)
@@ -64,8 +64,8 @@ class SecondOrderDrop : public testing::TestWithParam<std::tuple<Coupling, Rubbe
 {
 };
 
-// Undamped rubber balls that fall from a metre return with .81, .90 and .85 of their speed in steps of 1/1920 s.
-// Implicit Euler at 60 Hz gives .32, .19 and .10 back, and .35 of the stiffest at 240 Hz.
+// Undamped rubber balls dropped from a metre rebound with .81, .90 and .85 of their speed in steps of 1/1920 s.
+// Implicit Euler at 60 Hz gives .32, .19 and .10, and .35 for the stiffest at 240 Hz.
 TEST_P(SecondOrderDrop, ReboundsWithTheExpectedShareOfTheSpeed)
 {
     const auto& [coupling, drop] = GetParam();
@@ -98,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values(RubberDrop{1e5, 60, 0.6, 0.81}, RubberDrop{1e6, 60, 0.62, 0.9},
                                      RubberDrop{1e7, 60, 0.3, 0.85}, RubberDrop{1e7, 240, 0.8, 1})));
 
-/// Least and greatest deflection of the free end of a clamped bar in a second [m]; under its weight from the start.
+/// Minimum and maximum deflection of the free end of a clamped bar within a second [m], under its weight from the
+/// start.
 std::pair<double, double> swing(FemWorld& world, btSoftBody& bar, int node)
 {
     double least = 1e30, most = -1e30;
@@ -111,8 +112,8 @@ std::pair<double, double> swing(FemWorld& world, btSoftBody& bar, int node)
     return {least, most};
 }
 
-// A swing of 1.7 Hz loses half of itself in .75 s by implicit Euler. Contact has a damping of its own: what swings free
-// of any has none of it, unless something else is asked for.
+// Implicit Euler halves a vibration of 1.7 Hz in .75 s. Contact has its own damping, which does not act on bodies
+// without contact by default.
 TEST(SecondOrderInTheAir, KeepsSwingingDespiteContactDamping)
 {
     FemWorld world(WorldClass::softRigid);
@@ -131,8 +132,8 @@ TEST(SecondOrderInTheAir, KeepsSwingingDespiteContactDamping)
     EXPECT_GT(later.second - later.first, 0.9 * (first.second - first.first));
 }
 
-// What touches goes by the damping of contact from the next step on: a ball that gives back .69 of its speed without
-// any gives back the .2 of implicit Euler.
+// The contact damping acts from the step after the first contact: a ball that returns .69 of its speed without any
+// returns implicit Euler's .2.
 TEST(SecondOrderInTheAir, ReboundsByTheContactDamping)
 {
     double returned[2] = {0, 0};
@@ -153,12 +154,12 @@ TEST(SecondOrderInTheAir, ReboundsByTheContactDamping)
     EXPECT_LT(returned[1], 0.45);
 }
 
-// Down ten degrees, as rolling_test.cpp has it: what touches acts where it is within the step.
+// Down ten degrees, as in rolling_test.cpp: contact acts at the position at the end of the step.
 TEST(SecondOrderRolling, IsAsFastAsWithSmallSteps)
 {
     struct Slope
     {
-        double m_youngModulus, m_converged;  // [Pa], after six seconds in steps of 1/1920 s [m/s]
+        double m_youngModulus, m_converged;  // [Pa], speed after six seconds in steps of 1/1920 s [m/s]
     };
     for (const Slope& descent : {Slope{1e5, 4.71}, Slope{1e6, 5.38}})
     {
@@ -173,7 +174,7 @@ TEST(SecondOrderRolling, IsAsFastAsWithSmallSteps)
     }
 }
 
-// A cube that has come to rest weighs what it weighs, and stands as still as with implicit Euler.
+// The contact force of a resting cube is its weight, and it is as still as with implicit Euler.
 TEST(SecondOrderRest, CarriesTheWeight)
 {
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
@@ -191,7 +192,7 @@ TEST(SecondOrderRest, CarriesTheWeight)
     }
 }
 
-// Two free balls that meet off their centres.
+// Two free balls in an eccentric impact.
 TEST(SecondOrderMomentum, IsKeptInCollisions)
 {
     FemWorld world(WorldClass::softRigid, Coupling::swap, {0, 0, 0}, secondOrder());
@@ -209,7 +210,7 @@ TEST(SecondOrderMomentum, IsKeptInCollisions)
     const Motion after[2] = {motionOf(a), motionOf(b)};
     const auto gained = [&](Vec3 Motion::*of) { return after[0].*of + after[1].*of - before[0].*of - before[1].*of; };
     const double size = norm(before[0].m_linear);
-    EXPECT_GT(velocityOf(b).z, 0.5);  // they have met
+    EXPECT_GT(velocityOf(b).z, 0.5);  // they were in contact
     EXPECT_LT(norm(gained(&Motion::m_linear)), 1e-5 * size);
     EXPECT_LT(norm(gained(&Motion::m_angular)), 1e-4 * size * kBall);
 }

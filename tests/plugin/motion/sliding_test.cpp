@@ -15,14 +15,14 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFriction = 0.3;  // of the ground with what slides [-]
+constexpr double kFriction = 0.3;  // between the ground and the sliding body [-]
 
-/// What a body that was given a speed does.
+/// The motion of a body with an initial speed.
 struct Slide
 {
     double m_brake = 0;            ///< its mean deceleration over the friction's
-    double m_lifted = 0;           ///< how far it rises, at most [m]
-    double m_speedAfterMetre = 0;  ///< [m/s]; 0: it did not come so far
+    double m_lifted = 0;           ///< maximum rise [m]
+    double m_speedAfterMetre = 0;  ///< [m/s]; 0: it did not get that far
 };
 
 void give(btSoftBody& body, double speed)
@@ -30,7 +30,7 @@ void give(btSoftBody& body, double speed)
     for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_v = btVector3(btScalar(speed), 0, 0);
 }
 
-/// A soft block that slides over half of its way to rest.
+/// A soft block that slides for half of its stopping distance.
 class SlidingBlock
 {
 public:
@@ -74,7 +74,7 @@ class Seams : public testing::TestWithParam<std::tuple<Coupling, Ground, int>>
 {
 };
 
-// A side wall that lies flush in what a body slides on is no wall.
+// A vertical side that ends flush with the ground's surface does not stop the body.
 TEST_P(Seams, DoNotStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
@@ -105,7 +105,7 @@ class Steps : public testing::TestWithParam<std::tuple<Coupling, Ground, int>>
 {
 };
 
-// It falls and goes on: the landing takes less than 3 % of its speed.
+// The body falls and slides on: landing costs less than 3 % of its speed.
 TEST_P(Steps, DownwardOnesDoNotStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
@@ -119,7 +119,7 @@ TEST_P(Steps, DownwardOnesDoNotStopSlidingBodies)
         }
 }
 
-// A fifth of an edge high.
+// Steps a fifth of an edge high.
 TEST_P(Steps, UpwardOnesStopSlidingBodies)
 {
     const auto [coupling, ground, frequency] = GetParam();
@@ -152,8 +152,8 @@ class SoftGround : public testing::TestWithParam<std::tuple<Coupling, int>>
 {
 };
 
-// A rigid box over soft slabs side by side, clamped below: it sinks in, so the front of the next slab stands before it,
-// and the surface of its own; but it slides as on one. Waves along the slabs' surface go at 18 m/s.
+// A rigid box slides over soft slabs side by side with fixed lower faces: it is sunk in, so that the front of the next
+// slab is ahead of it; but it slides as on a single slab. Surface waves travel at 18 m/s.
 TEST_P(SoftGround, IsNoWallForASlidingRigidBox)
 {
     const auto [coupling, slabs] = GetParam();
@@ -178,7 +178,7 @@ TEST_P(SoftGround, IsNoWallForASlidingRigidBox)
             const double low = box.getWorldTransform().getOrigin().z();
             box.setLinearVelocity(btVector3(btScalar(speed), 0, 0));
             box.setAngularVelocity(btVector3(0, 0, 0));
-            world.step();  // alone, a rigid body that is pushed feels the friction of two steps in the first
+            world.step();  // a rigid body alone in contact has the friction of two steps in the first
             const double start = box.getLinearVelocity().x();
             const int steps = static_cast<int>(std::min(0.5 * speed / kFriction / kGravity, 3 / speed) / kStep);
             double lifted = 0;

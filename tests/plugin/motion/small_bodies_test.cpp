@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-// What is dropped, and on what.
+// The dropped body and its ground.
 enum class Drop
 {
     softOnGround,
@@ -32,7 +32,7 @@ const char* dropName(Drop drop)
 class EverySize : public testing::TestWithParam<std::tuple<Coupling, Drop, int, double>>
 {
 protected:
-    // Rubber; what is larger than a metre would be squashed by its weight.
+    // Rubber; a cube above a metre would be compressed by its weight.
     static btSoftBody& addCube(FemWorld& world, double size, double bottom)
     {
         SoftBox box;
@@ -44,13 +44,13 @@ protected:
     }
 };
 
-// In a step of 1/60 s gravity moves what is free by 2.7 mm, through a body of that size. Two cubes above each other
-// both fall freely, and in truth the lower one is held by the ground.
+// In a step of 1/60 s gravity moves a free body by 2.7 mm, which is the size of these. Two cubes one above the other
+// would both fall freely, although the ground holds the lower one.
 TEST_P(EverySize, DroppedBodiesAreNeitherLostNorSinkIn)
 {
     const auto& [coupling, drop, frequency, size] = GetParam();
     const btScalar step = btScalar(1) / btScalar(frequency);
-    for (const double height : {0.0, 0.25, 0.75})  // sizes
+    for (const double height : {0.0, 0.25, 0.75})  // in sizes
     {
         SCOPED_TRACE(testing::Message() << "from " << height);
         FemWorld world(WorldClass::softRigid, coupling);
@@ -70,7 +70,7 @@ TEST_P(EverySize, DroppedBodiesAreNeitherLostNorSinkIn)
             if (box) return double(box->getWorldTransform().getOrigin().z()) - half;
             return lowestHeight(other ? *other : lower);
         };
-        const double rest = drop == Drop::softOnGround ? 0 : size;  // but for what the cube is squashed by
+        const double rest = drop == Drop::softOnGround ? 0 : size;  // plus the cube's compression
         const int steps = static_cast<int>(frequency * (2 + 3 * std::sqrt(size)));
         double before = 0;
         for (int k = 0; k < steps; ++k)
@@ -107,12 +107,12 @@ class Grain : public testing::TestWithParam<std::tuple<Coupling, double>>
 {
 };
 
-// A box that is smaller than the triangles of what it falls on, on one of them, across an edge or at a node.
+// A box smaller than the triangles below it: on a triangle, across an edge or at a node.
 TEST_P(Grain, LiesOnACoarseSlab)
 {
     const auto& [coupling, half] = GetParam();
-    for (const double aside : {0.0, 0.007, 0.0125})  // of a node [m]
-        for (const double height : {0.0, 1.5})       // half edges
+    for (const double aside : {0.0, 0.007, 0.0125})  // from a node [m]
+        for (const double height : {0.0, 1.5})       // in half edges
         {
             SCOPED_TRACE(testing::Message() << aside << " m aside from " << height);
             FemWorld world(WorldClass::softRigid, coupling);
@@ -128,7 +128,7 @@ TEST_P(Grain, LiesOnACoarseSlab)
                 {btScalar(mass), at(btScalar(aside), btScalar(aside / 2), btScalar(0.1 + (1 + height) * half))});
             world.step(180);
             const btVector3 place = grain.getWorldTransform().getOrigin();
-            EXPECT_NEAR(place.z(), 0.1 + half, 0.05 * half + 1e-4);  // the slab is squashed by its weight
+            EXPECT_NEAR(place.z(), 0.1 + half, 0.05 * half + 1e-4);  // the slab is compressed by its weight
             EXPECT_NEAR(std::hypot(place.x() - aside, place.y() - aside / 2), 0, 0.1 * half);
             EXPECT_LT(world.fem().stepReport(&soft).m_deepestPenetration, 0.02 * half);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Soft bodies on light rigid bodies that Bullet's joints hold: in the swap, too, the joints carry the load.
+// Soft bodies on light rigid bodies with Bullet's joints: in staggered coupling, too, the joints carry the load.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ btFemSolverInfo withDamping(double numericalDamping)
     return info;
 }
 
-/// A plate on a spring, and a cube on it.
+/// A plate on a spring, with a cube on it.
 class SprungPlatform
 {
 public:
@@ -95,14 +95,14 @@ class LoadedPlatform : public testing::TestWithParam<std::tuple<Coupling, double
 {
 };
 
-// Reactions that came after Bullet had moved the plate were motion for the joint's damper: in the swap a plate of 5 kg
-// read 1 m/s at rest and had sunk by .258 m in place of .363 m, one of 10 kg .5 m/s and .359 m in place of .412 m.
+// Reactions applied after Bullet has moved the plate act on the joint's damper as motion: in staggered coupling a plate
+// of 5 kg had 1 m/s at rest and sank by .258 m instead of .363 m, one of 10 kg .5 m/s and .359 m instead of .412 m.
 TEST_P(LoadedPlatform, SinksByItsLoadAndStandsStill)
 {
     const auto& [coupling, mass, damping] = GetParam();
     SprungPlatform scene(coupling, mass, damping);
     scene.m_world.step(900);
-    // Bullet softens springs that are stiff for their step: to the share of a mass that 1/16 of the step squared is.
+    // Bullet limits a spring's stiffness to mass / (16 h^2).
     const double softest = mass / 16 / (double(kStep) * double(kStep));
     const double load = (mass + massOf(*scene.m_cube)) * kGravity;
     const double expected = load / std::min(kSpring, softest);
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Masses, LoadedPlatform,
                                     (std::get<2>(suite.param) > 0 ? "euler" : "secondOrder");
                          });
 
-// What is expected of the next step is part of the state.
+// The reaction predicted for the next step is part of the state.
 TEST(SprungPlatform, ContinuesFromASavedStateToTheBit)
 {
     SprungPlatform scene(Coupling::swap, 5, 1);
@@ -140,7 +140,7 @@ TEST(SprungPlatform, ContinuesFromASavedStateToTheBit)
     EXPECT_TRUE(scene.run(60) == bits);
 }
 
-// A cube flies onto a plate that a spring joins to another body, and nothing else acts on the three.
+// A cube hits a plate on a spring to another body; no external force acts on the three.
 TEST(SprungPlatform, KeepsTheMomentum)
 {
     FemWorld world(WorldClass::softRigid, Coupling::swap, {0, 0, 0}, withDamping(1));
@@ -170,18 +170,18 @@ TEST(SprungPlatform, KeepsTheMomentum)
         worst = std::max(worst, std::fabs(sum / momentum - 1));
     }
     world.bullet().removeConstraint(&joint);
-    EXPECT_GT(pushed, 20);  // steps, so that some of it was expected
+    EXPECT_GT(pushed, 20);  // steps, so that some reactions were predicted
     EXPECT_LT(worst, 1e-5);
 }
 
-// A load that leaves takes its reaction along.
+// Removing the load removes its reaction.
 TEST(SprungPlatform, ComesBackWhenTheLoadIsGone)
 {
     SprungPlatform scene(Coupling::swap, 5, 1);
     scene.m_world.step(600);
     scene.m_cube->translate({5, 0, 0});
     scene.m_world.step();
-    EXPECT_LT(scene.speed(), 2 * kSpring * scene.sink() / 5 * double(kStep));  // what the spring gives it in a step
+    EXPECT_LT(scene.speed(), 2 * kSpring * scene.sink() / 5 * double(kStep));  // the spring's velocity change in a step
     scene.m_world.step(600);
     EXPECT_NEAR(scene.sink(), 5 * kGravity / kSpring, 1e-3);
 }

@@ -18,11 +18,10 @@ namespace
 {
 
 class Squeezed
-    : public testing::TestWithParam<std::tuple<Coupling, double, double>>  // with Young's modulus [Pa], speed [m/s]
+    : public testing::TestWithParam<std::tuple<Coupling, double, double>>  // Young's modulus [Pa], speed [m/s]
 {
 protected:
-    // The largest speed of a node of a light box on the floor, as a share of that of the heavy ball that falls on it
-    // beside its middle.
+    // Maximum node speed of a light box on the floor over the speed of the heavy ball that falls beside its middle.
     static double thrown(double offset)
     {
         const auto& [coupling, young, speed] = GetParam();
@@ -56,7 +55,7 @@ protected:
     static constexpr double kHeight = 0.13, kRadius = 0.275;  // [m]
 };
 
-// An elastic wall would throw it at twice the speed, and a pip that is squeezed out goes faster.
+// An elastic wall would give twice the speed, and a body squeezed out sideways gets more.
 TEST_P(Squeezed, ALightBodyIsNotShotAway)
 {
     for (const double offset : {0.0, 0.1, 0.2, 0.3}) EXPECT_LT(thrown(offset), 5) << "offset " << offset << " m";

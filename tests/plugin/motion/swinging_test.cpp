@@ -27,7 +27,7 @@ enum class Hold
     hinge  // the nodes of an edge along y
 };
 
-// A bar that hangs on one end, let go where it is level; bodies that swing have a step of second order.
+// A bar fixed at one end, released from the horizontal; swinging bodies use second-order steps.
 class Swinging : public testing::TestWithParam<std::tuple<Hold, double, double>>  // Young's modulus [Pa], step [s]
 {
 protected:
@@ -57,14 +57,15 @@ protected:
         m_start = centerOf(*m_bar);
     }
 
-    // That can be had again at the start's height, over what falling to the lowest point gives.
+    // Energy available at the start's height, over that of falling to the lowest point.
     double energy() const
     {
         const double fall = m_start.z + std::hypot(m_start.x, m_start.z);
         return 1 + (motionOf(*m_bar).m_energy / (m_mass * kGravity) + centerOf(*m_bar).z - m_start.z) / fall;
     }
 
-    // Of a rigid bar about its hinge [s]: 4 K(sin(angle / 2)) sqrt(I / (m g d)), K by the arithmetic-geometric mean.
+    // Period of a rigid bar about its hinge [s]: 4 K(sin(angle / 2)) sqrt(I / (m g d)), K by the arithmetic-geometric
+    // mean.
     double period() const
     {
         const double d = std::hypot(m_start.x, m_start.z), angle = std::atan2(m_start.x, -m_start.z);
@@ -112,13 +113,13 @@ INSTANTIATE_TEST_SUITE_P(Bars, Swinging,
                                     (std::get<2>(suite.param) < 0.02 ? "_60_Hz" : "_25_Hz");
                          });
 
-// A stiff, light box of some centimetres on one pin, which turns by up to half a radian in a step.
+// A stiff, light box of some centimetres on one pin, which rotates by up to half a radian in a step.
 class Pendulum : public testing::TestWithParam<std::tuple<double, double>>  // size [m], stiffness damping [s]
 {
 };
 
-// What the material's damping, or the step, takes for strain while it gets faster makes it shorter below and longer
-// above, as a swing is pumped: from .1 m and .02 s on, it got without bound faster.
+// Apparent strain in damping or in the step shortens the pendulum below and lengthens it above, which pumps it: from .1
+// m and .02 s on, it accelerated without bound.
 TEST_P(Pendulum, IsNotPumped)
 {
     const auto& [size, damping] = GetParam();
@@ -153,8 +154,8 @@ class CaughtInFlight : public testing::TestWithParam<std::tuple<double, double, 
 {
 };
 
-// A node of a bar that flies is pinned: the elements there are torn, and the bar turns fast. Steps must look at forces
-// before they carry elements far: nearly incompressible bars got up to 20 times their energy.
+// A node of a flying bar is pinned: the elements there are stretched strongly, and the bar rotates fast. Steps must
+// evaluate forces before elements move far: nearly incompressible bars reached up to 20 times their energy.
 TEST_P(CaughtInFlight, GainsNoEnergy)
 {
     const auto& [young, poisson, damping] = GetParam();

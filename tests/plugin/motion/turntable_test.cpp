@@ -14,11 +14,11 @@ namespace bullet_fem
 namespace
 {
 
-class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double>>  // damping of the steps
+class Turntable : public testing::TestWithParam<std::tuple<Coupling, int, double>>  // of step and contact
 {
 };
 
-// Friction of 0.5 holds 2 rad/s at half a metre well, but every step leads what sticks along the tangent.
+// Friction of 0.5 suffices for 2 rad/s at half a metre, but each step moves sticking bodies along the tangent.
 TEST_P(Turntable, KeepsStickingBodiesAtTheirRadius)
 {
     const auto [coupling, frequency, damping] = GetParam();
@@ -49,7 +49,7 @@ TEST_P(Turntable, KeepsStickingBodiesAtTheirRadius)
     }
     const Vec3 center = centerOf(body);
     EXPECT_NEAR(std::hypot(center.x, center.y), kRadius, 0.005);
-    // Of a table's poses in single precision Bullet makes a speed that is half a percent off at 240 Hz.
+    // From a table's poses in single precision Bullet computes a velocity with an error of half a percent at 240 Hz.
     EXPECT_NEAR(std::remainder(std::atan2(center.y, center.x) - kSpin * 10, 2 * std::acos(-1.0)), 0, 0.1) << "rad";
 }
 

@@ -17,7 +17,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr auto kPatience = std::chrono::minutes(2);  // for what must happen some time
+constexpr auto kPatience = std::chrono::minutes(2);  // timeout
 
 std::shared_ptr<const RestShape> beamShape(int cells)
 {
@@ -40,7 +40,7 @@ void waitFor(const btFemFactorJob& job)
     ASSERT_TRUE(job.m_done);
 }
 
-// Where a model leads in a few steps: depends on every bit of its factor.
+// Positions after a few steps of a model: they depend on each bit of its factor.
 std::vector<Vec3> trajectory(const std::shared_ptr<const BodyModel>& model)
 {
     Body body(model);
@@ -87,12 +87,12 @@ TEST(FactorJobs, AreSkippedIfAbandoned)
         last = worker.start(shape, inputFor(*shape, 100));
         waitFor(*last);
         for (int k = 0; k < 50; ++k) worker.start(shape, inputFor(*shape, 200 + k));
-    }  // ends with jobs waiting
+    }  // destroyed with waiting jobs
     EXPECT_TRUE(last->m_model);
     for (const auto& job : dropped) EXPECT_TRUE(job.expired());
 }
 
-// The orders of both draw from the C library's one random generator.
+// The ordering of both uses the C library's only random generator.
 TEST(FactorJobs, DoNotDisturbTheCallersOwnModels)
 {
     const auto one = beamShape(4), other = beamShape(5);
@@ -119,7 +119,7 @@ btFemSolverInfo inBackground()
     return info;
 }
 
-// Steps of a quarter of the factor's until it has been exchanged, a millisecond apart.
+// Steps a quarter of the factor's until it is replaced, a millisecond apart; returns their number.
 int exchanged(ClampedBeam& beam)
 {
     const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -148,7 +148,7 @@ TEST(BackgroundRefactoring, TakesTheNewFactorOverSomeTimeAfterItPays)
     asked.step(steps, kStep / 4);
     EXPECT_TRUE(asked.isFlagged(BT_FEM_REFACTOR_PAYS));
     EXPECT_LT(beam.report().m_iterations, asked.report().m_iterations);
-    // Both solve to 1e-6 of what moves them.
+    // Both solve to a relative 1e-6.
     EXPECT_LE((beam.tip() - asked.tip()).length(), 1e-4);
 }
 
@@ -160,7 +160,7 @@ TEST(BackgroundRefactoring, SkipsFactorsNoLongerUseful)
     beam.step(60);
     for (int k = 0; k < 1000 && !beam.isFlagged(BT_FEM_REFACTOR_PAYS); ++k) beam.step(1, kStep / 4);
     ASSERT_TRUE(beam.isFlagged(BT_FEM_REFACTOR_PAYS));
-    beam.step(1, kStep / 4);  // asks for a new factor
+    beam.step(1, kStep / 4);  // requests a new factor
     for (int k = 0; k < 100; ++k)
     {
         beam.step();  // the old one fits again
@@ -176,7 +176,7 @@ TEST(BackgroundRefactoring, ForgetsTheFactorOfAnotherMaterial)
     ClampedBeam beam(settings);
     beam.step(60);
     for (int k = 0; k < 1000 && !beam.isFlagged(BT_FEM_REFACTOR_PAYS); ++k) beam.step(1, kStep / 4);
-    beam.step(1, kStep / 4);  // asks for a new factor
+    beam.step(1, kStep / 4);  // requests a new factor
     beam.fem().setMaterial(&beam.body(), btFemMaterial::foam());
     beam.step(1, kStep / 4);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -187,7 +187,7 @@ TEST(BackgroundRefactoring, ForgetsTheFactorOfAnotherMaterial)
     }
 }
 
-// Bodies come, go, change and are refactored while their factors are being made; then the solver goes.
+// Bodies are added, removed, changed and refactored while their factors are computed; then the solver is destroyed.
 TEST(BackgroundRefactoring, SurvivesAddedRemovedAndChangedBodies)
 {
     std::mt19937 random(1);

@@ -19,7 +19,7 @@ namespace
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The same interest in everything.
+/// Returns a constant interest.
 class PlainInterest : public btFemInterest
 {
 public:
@@ -34,7 +34,7 @@ public:
     int m_calls = 0;
 };
 
-// --- The level that interest brings a body to, in steps of 0.1 s with a dwell of 0.45 s ---
+// --- Detail level by interest, in steps of 0.1 s with a dwell time of 0.45 s ---
 
 class DetailLevel : public testing::Test
 {
@@ -97,7 +97,7 @@ TEST_F(DetailLevel, ChangesAtMostTwicePerDwell)
         changes += now != last;
         last = now;
     }
-    // It rises in a step of high interest, sinks in the fifth after it, and rises again in the next.
+    // The level rises in a step of high interest, falls in the fifth step after it, and rises again in the next.
     EXPECT_EQ(changes, 2 * (1000 / 6));
 }
 
@@ -127,7 +127,7 @@ TEST(DetailPolicy, RejectsBoundsOutOfOrderAndNamesThem)
     expectRejected(&Policy::m_dwell, kNaN, "m_dwell");
 }
 
-// --- Who chooses ---
+// --- Automatic and explicit levels ---
 
 class AutomaticDetail : public testing::Test
 {
@@ -200,7 +200,7 @@ TEST_F(AutomaticDetail, ClampsInterestOutOfRangeAndReportsIt)
     for (const btScalar low : {btScalar(-0.01), -infinity})
     {
         m_interest.m_value = low;
-        m_fem.setDetail(&m_cube, btFemDetail::automatic);  // anew, without a dwell
+        m_fem.setDetail(&m_cube, btFemDetail::automatic);  // again, without a dwell time
         EXPECT_EQ(detailAfterAStep(), btFemDetail::direct) << low;
         EXPECT_EQ(m_fem.stepReport(&m_cube).m_flags, BT_FEM_BAD_INTEREST) << low;
     }
@@ -226,7 +226,7 @@ TEST(AutomaticDetailInContact, IsFullWhileInContact)
     EXPECT_EQ(fem.stepReport(&cube).m_detail, btFemDetail::nodalWarp);
     EXPECT_NEAR(impulseOn(fem, cube).z / kStep, massOf(cube) * kGravity, 1e-3 * massOf(cube) * kGravity);
     cube.translate(btVector3(0, 0, 5));
-    world.step(2);  // the first still knows the contacts of the one before
+    world.step(2);  // the first step still has the last one's contacts
     EXPECT_EQ(fem.stepReport(&cube).m_detail, btFemDetail::direct);
     fem.setDetail(&cube, btFemDetail::oneIteration);
     world.step();
@@ -234,13 +234,13 @@ TEST(AutomaticDetailInContact, IsFullWhileInContact)
     EXPECT_LE(fem.stepReport(&cube).m_iterations, 1);
 }
 
-// --- Bodies that few look at ---
+// --- Bodies of low interest ---
 
 struct Coarse
 {
     double m_young;     // [Pa]
-    bool m_isPinned;    // after its factor was made, at a corner: it swings
-    double m_ofFactor;  // step that the factor is for, over the others [-]
+    bool m_isPinned;    // pinned after its factor was made, at a corner: it swings
+    double m_ofFactor;  // the factor's step over that of others [-]
 };
 
 void PrintTo(const Coarse& coarse, std::ostream* out)
@@ -252,7 +252,7 @@ class CoarseDetail : public testing::TestWithParam<std::tuple<btFemDetail, Coars
 {
 };
 
-// One iteration a step, whatever it leaves, made such bodies hundreds of metres a second fast.
+// A single iteration a step, with any residual, would accelerate such bodies to hundreds of metres a second.
 TEST_P(CoarseDetail, AddsNoEnergy)
 {
     const auto& [detail, coarse] = GetParam();
@@ -289,8 +289,8 @@ class StalePinTest : public testing::TestWithParam<btFemDetail>
 {
 };
 
-// The factor knows nothing of the pin, and what 5 % of stiff forces leave bends a bar of 1 GPa by more than they had,
-// step by step.
+// The factor does not include the pin, and a residual of 5 % of the forces in a bar of 1 GPa bends it further in each
+// step.
 TEST_P(StalePinTest, AddsNoEnergyInVaryingSteps)
 {
     btFemSoftBodySolver fem;
@@ -333,7 +333,7 @@ TEST(Detail, RejectsUnknownValues)
     EXPECT_THROW(fem.setDetail(&cube, static_cast<btFemDetail>(-1)), std::invalid_argument);
 }
 
-// --- The viewer ---
+// --- Viewer interest ---
 
 TEST(ViewerInterest, FallsLinearlyWithTheDistanceToTheBox)
 {
@@ -380,7 +380,7 @@ TEST(ViewerInterest, RejectsDistancesOutOfOrder)
     EXPECT_THROW(btFemViewerInterest(1, nan), std::invalid_argument);
 }
 
-// --- No jump where the level changes ---
+// --- Continuity at changes of level ---
 
 struct Switch
 {
@@ -404,7 +404,7 @@ const btFemDetailPolicy g_shortDwell = []
 class DetailSwitch : public testing::TestWithParam<Switch>
 {
 protected:
-    // Two beams that take the same steps, to the bit; one of them is about to change its level.
+    // Two beams with bitwise equal steps; one of them will change its level.
     void settle(double massDamping, int steps)
     {
         for (auto& beam : m_beam)
@@ -430,10 +430,10 @@ protected:
     std::unique_ptr<ClampedBeam> m_beam[2];
 };
 
-// One of the two is fully solved in the step of the switch. Motion is continuous by construction, because state and
-// increments are taken over; what is left is the error of one iteration. Measured, it is .1 % of the tip's way in the
-// step or less, but for the turning point, where the soft beam, hanging straight down, is 2e-5 m off in a step of
-// 7e-3 m. The band adds a hundred-thousandth of the beam's length to twice that share.
+// One of the two is fully solved in the step of the change. Motion is continuous by construction, because state and
+// increments are kept; the difference is the error of one iteration. It is .1 % of the tip's displacement in the step
+// or less (measured), except at the turning point, where the soft beam, hanging straight down, differs by 2e-5 m in a
+// step of 7e-3 m. The bound is twice that share plus 1e-5 of the beam's length.
 TEST_P(DetailSwitch, MovesASwingingTipAsTheFullSolutionWould)
 {
     for (const int steps : {20, 37, 50, 75})
@@ -448,7 +448,7 @@ TEST_P(DetailSwitch, MovesASwingingTipAsTheFullSolutionWould)
     }
 }
 
-// The beam hangs still; a second in the new level must not set it in motion.
+// The beam is at rest; a second at the new level must not move it.
 TEST_P(DetailSwitch, LeavesARestingTipInPlace)
 {
     settle(4, 600);

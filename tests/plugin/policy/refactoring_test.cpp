@@ -19,12 +19,12 @@ namespace
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-3;
-constexpr double kFarOff = 10;  // mismatch; 37 iterations may be lost to it
+constexpr double kFarOff = 10;  // mismatch; it costs up to 37 iterations
 constexpr double kPrice = 100;  // [iterations]
 
-// --- The account, with made-up iterations ---
+// --- The account, with synthetic iteration counts ---
 
-// Steps with a stale factor until a new one pays; 10,000 if it never does.
+// Number of steps with a stale factor until a new one pays; 10,000 if it never does.
 int stepsUntilItPays(btFemFactorAccount& account, int iterations, double mismatch = kFarOff)
 {
     int steps = 0;
@@ -48,7 +48,7 @@ TEST(FactorAccount, ANewFactorPaysWhenTheOldOneHasCostAsMuch)
     btFemFactorAccount account = accountWithFresh(2);
     EXPECT_EQ(stepsUntilItPays(account, 6), 25);
     account.note(2, 1, kTolerance);
-    EXPECT_FALSE(account.refactorPays(kPrice));  // it fits again
+    EXPECT_FALSE(account.refactorPays(kPrice));  // no longer stale
 }
 
 TEST(FactorAccount, CostsNothingWithoutExtraIterations)
@@ -60,8 +60,8 @@ TEST(FactorAccount, CostsNothingWithoutExtraIterations)
 TEST(FactorAccount, IterationsNotCausedByTheFactorAreNotCharged)
 {
     btFemFactorAccount account = accountWithFresh(2);
-    EXPECT_EQ(stepsUntilItPays(account, 50, 1.0005), 10000);  // none
-    EXPECT_EQ(stepsUntilItPays(account, 50, 1.1), 50);        // 2 of them
+    EXPECT_EQ(stepsUntilItPays(account, 50, 1.0005), 10000);  // none lost
+    EXPECT_EQ(stepsUntilItPays(account, 50, 1.1), 50);        // 2 lost a step
 }
 
 TEST(FactorAccount, OtherPinsMayCostAnyNumber)
@@ -95,7 +95,7 @@ TEST(FactorAccount, ShortLivedFactorsGrowDearerUntilOneLasts)
         EXPECT_EQ(stepsUntilItPays(account, 6), steps);
         account.spend(kPrice);
     }
-    for (int k = 0; k < 25; ++k) account.note(2, 1, kTolerance);  // saves 4 iterations a step: earns its price
+    for (int k = 0; k < 25; ++k) account.note(2, 1, kTolerance);  // saves 4 iterations a step: pays for itself
     EXPECT_EQ(stepsUntilItPays(account, 6), 25);
 }
 
@@ -105,11 +105,11 @@ TEST(FactorAccount, BeginsAnewWhenTheUserRefactors)
     stepsUntilItPays(account, 6);
     account.clear();
     EXPECT_FALSE(account.refactorPays(kPrice));
-    EXPECT_EQ(stepsUntilItPays(account, 6), 25);  // what a fresh one needs is still known
+    EXPECT_EQ(stepsUntilItPays(account, 6), 25);  // iterations of a fresh factor are remembered
 }
 
-// Measured on the machine of docs/performance.md: 148 at 1,536 elements, 200 at 12,288, 70 at 41,472. An estimate that
-// is off by 2 refactors at another time, no more.
+// Measured on the machine of docs/performance.md: 148 at 1,536 elements, 200 at 12,288, 70 at 41,472. An estimate wrong
+// by a factor of 2 only changes the time of refactoring.
 TEST(RefactorPrice, IsThatOfTheBenchmarksWithinAFactorOfTwo)
 {
     const auto priceOfBeam = [](int cells)
@@ -138,7 +138,7 @@ ClampedBeam::Settings beamSettings(btFemRefactoring refactoring, int threads = 1
     return settings;
 }
 
-// Steps twice as long as the factor's until a flag is raised; `most` if it never is.
+// Makes steps twice as long as the factor's until a flag is raised, `most` at the maximum; returns their number.
 int stepsUntil(ClampedBeam& beam, btFemFlags flag, int most)
 {
     for (int k = 1; k < most; ++k)
@@ -218,7 +218,7 @@ TEST(Refactoring, SynchronousMendsAFactorOfOtherPins)
     EXPECT_TRUE(allFinite(beam.body()));
 }
 
-// A factor that would become too large is not made: the old one stays, and the report has the amount.
+// A factor beyond the limit is not made: the old one stays, and the report has the size.
 TEST(Refactoring, FailureWithinAStepKeepsTheOldFactor)
 {
     ClampedBeam::Settings settings = beamSettings(btFemRefactoring::synchronous);
@@ -248,7 +248,7 @@ TEST(Refactoring, FailureWithinAStepKeepsTheOldFactor)
     EXPECT_THROW(beam.fem().refactor(&beam.body()), std::runtime_error);
 }
 
-// Likewise where contact asks for it.
+// A factor beyond the limit that contact requests: the old one stays.
 TEST(Refactoring, FailureInContactKeepsTheOldFactor)
 {
     btFemSolverInfo info;
@@ -278,7 +278,7 @@ TEST(Refactoring, FailureInContactKeepsTheOldFactor)
     EXPECT_TRUE(allFinite(body));
 }
 
-// With the factor of the long step what an anchor is to do in the short one was guessed 200 times too large.
+// With the factor of a longer step the predicted anchor impulse in the short step was 200 times too large.
 TEST(Refactoring, HappensAtOnceForAnchoredBodiesAtAFarOffStep)
 {
     btFemSolverInfo info;
@@ -310,7 +310,7 @@ TEST(Refactoring, HappensAtOnceForAnchoredBodiesAtAFarOffStep)
     }
 }
 
-// A node was thrown at 175 m/s by the factor of a longer step, in the step in which its anchor came.
+// With the factor of a longer step a node reached 175 m/s in the step in which its anchor was added.
 TEST(Refactoring, HappensBeforeANewAnchorHolds)
 {
     btFemSolverInfo info;
@@ -328,7 +328,7 @@ TEST(Refactoring, HappensBeforeANewAnchorHolds)
     world.step(1, btScalar(1.0 / 900));
     EXPECT_TRUE(fem.stepReport(&ball).m_flags & BT_FEM_REFACTORED);
     EXPECT_FALSE(fem.stepReport(&ball).m_flags & (BT_FEM_BREAKDOWN | BT_FEM_NOT_CONVERGED));
-    EXPECT_LT(motionOf(ball).m_energy, 1.01 * before);  // a post gives it none; its weight some, in a millisecond
+    EXPECT_LT(motionOf(ball).m_energy, 1.01 * before);  // gravity adds some within a millisecond
 }
 
 TEST(Refactoring, RejectsAnUnknownMode)
@@ -360,7 +360,7 @@ TEST(RealTime, IsNotMissedByAHitchNowAndThen)
 TEST(RealTime, IsMissedByStepsOfAMicrosecondAndKeptByThoseOfASecond)
 {
     ClampedBeam beam(beamSettings(btFemRefactoring::onRequest));
-    beam.step(30, btScalar(1.01e-6));  // 1,000 elements take longer than that on any machine
+    beam.step(30, btScalar(1.01e-6));  // 1,000 elements take longer on any machine
     EXPECT_TRUE(beam.report().m_tooSlow);
     beam.step(30, 1);
     EXPECT_FALSE(beam.report().m_tooSlow);

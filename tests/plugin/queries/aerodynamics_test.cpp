@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Wind and water: Bullet's formulas, and what Bullet's own bodies feel.
+//
+// Wind and water: Bullet's formulas, and the motion of Bullet's own bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-// Bullet's formulas for nodes: with a node's area A, normal n, v relative to the wind, dvn = v . n > 0 (two-sided: |v .
+// Bullet's formula for nodes: with a node's area A, normal n, v relative to the wind, dvn = v . n > 0 (two-sided: |v .
 // n|), f = -rho A dvn v^2 / 2 (kLF n + kDG v / |v|).
 class Aerodynamics : public EachWorldWith<btSoftBody::eAeroModel::_>
 {
@@ -56,7 +57,7 @@ TEST_P(Aerodynamics, DragAndLiftAreBulletsFormulasAndWaterHasNoneAsInBullet)
     body.m_cfg.kDG = btScalar(0.3);
     body.m_cfg.kLF = btScalar(0.1);
     world.info().air_density = btScalar(1.5);
-    // All of it under water: Bullet 3.24 reads these, and takes the density of air all the same.
+    // All of it is under water: Bullet 3.24 reads these values, but uses the density of air.
     world.info().water_density = 1000;
     world.info().water_normal = btVector3(0, 0, 1);
     world.info().water_offset = -50;
@@ -84,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(Models, Aerodynamics,
 class Water : public EachWorldWith<btSoftBody::eAeroModel::_>
 {
 protected:
-    // A cube of next to no stiffness, without links, that flies and spins through the wind; velocities after a step.
+    // Velocities after a step of a cube with nearly zero stiffness, without links, that flies and spins through the
+    // wind.
     static std::vector<btScalar> stepped(SoftWorld& world, btFemSoftBodySolver* fem, double waterDensity,
                                          btScalar drag = btScalar(0.3))
     {
@@ -93,7 +95,7 @@ protected:
         {
             btFemMaterial soft;
             soft.m_youngModulus = 1;
-            soft.m_density = 0;  // its masses stay
+            soft.m_density = 0;  // masses are kept
             fem->setMaterial(&body, soft);
         }
         body.m_cfg.collisions = 0;
@@ -106,9 +108,9 @@ protected:
             body.m_nodes[i].m_v = btVector3(2, 1, 0) + btVector3(0, 3, 1).cross(body.m_nodes[i].m_x);
         world.info().air_density = btScalar(1.5);
         world.info().water_density = btScalar(waterDensity);
-        world.info().water_normal = btVector3(0, 0, 1);  // all of it, 50 m deep
+        world.info().water_normal = btVector3(0, 0, 1);  // all of it is 50 m deep
         world.info().water_offset = -50;
-        body.m_bUpdateRtCst = false;  // Bullet alone would build a tree along the links
+        body.m_bUpdateRtCst = false;  // Bullet alone would build a tree from the links
         body.updateArea();
         body.updateNormals();
         world.step();
@@ -140,7 +142,7 @@ protected:
     }
 };
 
-// Bullet 3.24 looks the medium up, and takes the density of air all the same: whoever swims in it swims in air.
+// Bullet 3.24 looks up the medium, but uses the density of air: in water a body has the forces of air.
 TEST_P(Water, HasNoEffectAsOnBulletsBodies)
 {
     const std::vector<btScalar> bullet = ofBullet(1000), inAir = ofBullet(0), fem = ofFem(1000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
+//
 // Fields of btSoftBody and btCollisionObject that programs read or write: render nodes, user data, activation,
 // collision flags and filters, the world info, aerodynamics.
 #include <gtest/gtest.h>
@@ -88,7 +89,7 @@ TEST_P(RenderNodes, FollowTheirTetrahedraByInterpolation)
     }
 }
 
-// Bullet's transform does not know them.
+// Bullet's transform does not move them.
 TEST_P(RenderNodes, WaitForTheStepAfterATransformUnlessTheyAreUpdated)
 {
     btSoftBodyHelpers::interpolateBarycentricWeights(&m_body);
@@ -110,7 +111,7 @@ TEST_P(RenderNodes, KeepTheirFaceDistanceByExtrapolation)
         EXPECT_LT(m_body.m_renderNodes[v].m_x.distance(m_start[v] + btVector3(1, 2, 3)), 2e-2);
 }
 
-// btSoftMultiBodyDynamicsWorld itself reads the weights of all soft bodies, whatever their solver.
+// btSoftMultiBodyDynamicsWorld itself reads the weights of all soft bodies, for any solver.
 class RenderNodesAlone : public RenderNodes
 {
 };
@@ -132,7 +133,7 @@ TEST_P(RenderNodesAlone, StayInPlaceWithoutWeightsOrParents)
     m_body.m_renderNodesInterpolationWeights.resize(m_body.m_renderNodes.size());
     expectStill();
     m_body.m_renderNodesParents.resize(m_body.m_renderNodes.size());
-    m_body.m_renderNodesParents[2].push_back(&m_body.m_nodes[0]);  // too few
+    m_body.m_renderNodesParents[2].push_back(&m_body.m_nodes[0]);  // too few entries
     expectStill();
     m_body.m_z.resize(2);
     expectStill();
@@ -159,7 +160,7 @@ TEST_P(BulletFields, GenerateBoundaryFacesMakesTheFacesOfTheSurface)
     EXPECT_GT(m_body.m_rcontacts.size(), 0);
 }
 
-// Bullet's world knows no sweeps against soft bodies: what lies behind is hit.
+// Bullet's world has no sweep tests against soft bodies: the object behind is hit.
 TEST_P(BulletFields, ConvexSweepTestPassesFemBodiesAsItPassesBulletsSoftBodies)
 {
     m_world.step();
@@ -188,7 +189,7 @@ TEST_P(BulletFields, CheckContactTellsDistanceAndNormalOfARigidBodyAtAnyPoint)
     EXPECT_FALSE(m_body.checkContact(&wrapper, btVector3(btScalar(2.5), 0, 0), btScalar(0.1), touch));
 }
 
-// What users hang on to bodies and their parts, as numbers.
+// User indices and pointers of bodies and their parts, as numbers.
 class UserData
 {
 public:
@@ -240,7 +241,7 @@ TEST_P(BulletFields, UserPointersIndicesAndTagsAreNeverModified)
     m_world.step(10);
     data.expectUntouched();
     m_world.put(m_body);
-    m_body.activate(true);  // as a rigid body that was put back asleep
+    m_body.activate(true);  // as a rigid body that is put back asleep
     m_fem.setMaterial(&m_body, btFemMaterial::rubber());
     m_body.translate(btVector3(0, 0, 1));
     m_world.step(290);
@@ -257,13 +258,13 @@ TEST_P(BulletFields, ActivateWakesASleeperAndForcedStatesAreKept)
     m_world.step();
     EXPECT_EQ(m_body.getActivationState(), ACTIVE_TAG);
     m_world.step(60);
-    EXPECT_TRUE(m_body.isActive());  // rests, but not for long enough
+    EXPECT_TRUE(m_body.isActive());  // at rest, but not for long enough
     m_world.step(120);
     EXPECT_EQ(m_body.getActivationState(), ISLAND_SLEEPING);
     m_body.setActivationState(DISABLE_DEACTIVATION);
     m_world.step(200);
     EXPECT_EQ(m_body.getActivationState(), DISABLE_DEACTIVATION);
-    m_body.setActivationState(ACTIVE_TAG);  // Bullet does not leave a DISABLE_ state but by force
+    m_body.setActivationState(ACTIVE_TAG);  // only a forced change leaves a DISABLE_ state in Bullet
     EXPECT_EQ(m_body.getActivationState(), DISABLE_DEACTIVATION);
     m_body.forceActivationState(DISABLE_SIMULATION);
     const std::vector<btScalar> before = bitsOf(m_body);
@@ -307,11 +308,11 @@ class UserMadeWorldInfo : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, UserMadeWorldInfo, eachWorld(), nameOfWorld);
 
-// Its own world info: gravity is the body's; dispatcher and broadphase need not be set for contact.
+// A body with its own world info: its gravity applies; dispatcher and broadphase need not be set for contact.
 TEST_P(UserMadeWorldInfo, WorksWithNothingButGravity)
 {
     FemWorld world(GetParam());
-    world.setSoftGravity(btVector3(0, 0, btScalar(-1.62)));  // a deformable world's, which is not the body's
+    world.setSoftGravity(btVector3(0, 0, btScalar(-1.62)));  // gravity of a deformable world, not of the body
     world.addFloorBox();
     btSoftBodyWorldInfo info;
     info.m_gravity = btVector3(0, 0, btScalar(-1.62));
@@ -325,7 +326,7 @@ TEST_P(UserMadeWorldInfo, WorksWithNothingButGravity)
     world.deleteSoft(body);  // before its world info
 }
 
-// Engines take the world info away with the world.
+// Engines delete the world info together with the world.
 TEST_P(BulletFields, AWorldInfoOfNullOffWorldIsTolerated)
 {
     m_world.step(10);
@@ -354,7 +355,7 @@ TEST_P(BulletFields, AddAeroForceToNodeAndFaceActOnce)
     Vec3 sum;
     for (int i = 0; i < m_body.m_nodes.size(); ++i)
         m_body.addAeroForceToNode(btVector3(2, 0, 0), i), sum += vec3(m_body.m_nodes[i].m_f);
-    m_body.m_cfg.kDG = 0;  // nothing from the step itself
+    m_body.m_cfg.kDG = 0;  // no force from the step itself
     ASSERT_GT(norm(sum), 1e-2);
     m_world.step();
     EXPECT_LT(norm(motionOf(m_body).m_linear - before - double(kStep) * sum), 1e-2 * double(kStep) * norm(sum) + 2e-4);

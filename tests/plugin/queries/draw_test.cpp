@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// What is drawn of FEM bodies, by Bullet and by btFemDebugDraw, and what is shown in Bullet's contact arrays.
+//
+// Drawing of FEM bodies, by Bullet and by btFemDebugDraw, and contacts in Bullet's arrays.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ struct Line
     btScalar length() const { return m_from.distance(m_to); }
 };
 
-// Writes down what it is given.
+// Records the drawn primitives.
 class Recorder : public btIDebugDraw
 {
 public:
@@ -104,7 +105,7 @@ TEST_P(Drawing, ElementsAreTheSixEdgesOfEveryTetrahedronShrunk)
     EXPECT_EQ(recorder.m_lines[0].m_color, settings.m_elementColor);
 }
 
-// Squeezed and turned, the rest shape has its own size, and the body's place.
+// The rest shape of a deformed and rotated body is drawn with its own size, at the body's place.
 TEST_P(Drawing, StressFreeIsTheRestShapeInTheBodysPlace)
 {
     const btQuaternion turn(btVector3(1, 2, 3).normalized(), btScalar(2.5));
@@ -118,7 +119,7 @@ TEST_P(Drawing, StressFreeIsTheRestShapeInTheBodysPlace)
     }
     const Recorder recorder = drawn(BT_FEM_DRAW_STRESS_FREE);
     const std::size_t triangles = m_body.m_faces.size();
-    ASSERT_EQ(recorder.m_lines.size(), triangles * 3 / 2);  // every edge once
+    ASSERT_EQ(recorder.m_lines.size(), triangles * 3 / 2);  // each edge once
     std::set<std::array<int, 3>> corners;
     for (const Line& line : recorder.m_lines)
         for (const btVector3& end : {line.m_from, line.m_to})
@@ -249,7 +250,7 @@ TEST_P(Drawing, BulletsContactArraysMatchOurContacts)
         for (int a = 0; a < 3; ++a) point += atFace.m_bary[a] * atFace.m_face->m_n[a]->m_x;
         EXPECT_LT(point.distance(contacts[k].m_point), 1e-3);
         EXPECT_EQ(atFace.m_contactPoint, contacts[k].m_point);
-        EXPECT_EQ(atFace.m_c2, 0);  // Bullet's deformable solver leaves it alone
+        EXPECT_EQ(atFace.m_c2, 0);  // ignored by Bullet's deformable solver
     }
     EXPECT_GT(touching, 3);
     EXPECT_EQ(m_body.m_rcontacts.size(), touching);
@@ -293,7 +294,7 @@ TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheBodyLiftsOffOrComesBack)
     EXPECT_EQ(m_body.m_rcontacts.size() + m_body.m_faceRigidContacts.size(), 0);
 }
 
-// What touched a body that left its world may be deleted, and its arrays are never looked at again.
+// Partners of a removed body may be deleted, so its arrays are cleared.
 TEST_P(Drawing, BulletsContactArraysAreEmptyWhenTheBodyHasLeftTheWorld)
 {
     ASSERT_GT(m_body.m_rcontacts.size(), 0);
@@ -333,7 +334,7 @@ TEST_P(Drawing, BulletsContactArraysKeepOthersWhenAnObjectLeaves)
     EXPECT_EQ(with(lid), withLid);
 }
 
-// A rigid body that a tick callback deletes within the step is not to be found in them.
+// A rigid body deleted by a tick callback within the step does not appear in them.
 class BulletsContactArrays : public EachWorldWith<Coupling>
 {
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Soft bodies are drawn between two steps beside Bullet's rigid bodies, as their motion states have these.
+//
+// Interpolated positions of soft bodies between two steps agree with the motion states of Bullet's rigid bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ const btScalar kFrames[] = {btScalar(1) / 144, btScalar(1) / 47, btScalar(1) / 7
 
 using DrawnArray = btAlignedObjectArray<btVector3>;
 
-// A soft cube of 0.4 m that follows a rigid one along x; latency as of Bullet's worlds unless they are told otherwise.
+// A soft cube of 0.4 m that follows a rigid one along x; latency of interpolation as by default in Bullet's worlds.
 class DrawnFlight : public EachWorldWith<bool>
 {
 protected:
@@ -69,7 +70,7 @@ TEST_P(DrawnFlight, SoftCubeKeepsItsDistanceFromARigidOne)
         worstStepped = std::max(worstStepped, std::fabs(gapTo(stepped) - double(kSoftGap)));
     }
     EXPECT_LT(worst, 1e-3);
-    EXPECT_GT(worstStepped, 0.1);  // what they are apart by without it
+    EXPECT_GT(worstStepped, 0.1);  // the error without interpolation
 }
 
 TEST_P(DrawnFlight, StepsOfNoFixedLengthAreDrawnWithTheRigidBodiesToo)
@@ -87,7 +88,7 @@ TEST_P(DrawnFlight, StepsOfNoFixedLengthAreDrawnWithTheRigidBodiesToo)
 INSTANTIATE_TEST_SUITE_P(Worlds, DrawnFlight, testing::Combine(eachWorld(), testing::Bool()),
                          nameOfWorldWith([](bool latency) { return latency ? "latency" : "ahead"; }));
 
-// A cube that falls and draws a smaller one within.
+// A falling cube that draws a smaller one inside.
 class DrawnFall : public testing::Test
 {
 protected:
@@ -178,7 +179,7 @@ TEST_F(DrawnFall, EmbeddedSurfaceFollowsTheDrawnNodes)
     ASSERT_EQ(2, m_drawn.size());
     for (int v = 0; v < 2; ++v) EXPECT_LT(m_drawn[v].distance(m_soft->m_renderNodes[v].m_x), 1e-6);
     const double fallen = double(m_drawn[0].z());
-    const double speed = double(m_soft->m_nodes[0].m_v.z());  // the cube falls as one
+    const double speed = double(m_soft->m_nodes[0].m_v.z());  // the cube falls as a rigid body
     ASSERT_TRUE(btFemHelpers::interpolateEmbeddedSurface(m_soft, btScalar(0.75), m_drawn));
     EXPECT_NEAR(fallen + 0.75 * double(kStep) * speed, double(m_drawn[0].z()), 1e-6);
     m_soft->m_renderNodesParents.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Picking and dragging, as Bullet's demos do it and with a spring.
+//
+// Picking and dragging, as in Bullet's demos and with a spring.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,15 +61,15 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Picking, eachWorld(), nameOfWorld);
 
-class PickingInTheSoftDemo : public EachWorldWith<int>  // percent of numerical damping
+class PickingInTheSoftDemo : public EachWorldWith<int>  // numerical damping in percent
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Worlds, PickingInTheSoftDemo, testing::Combine(eachWorld(), testing::Values(0, 100)),
                          nameOfWorldWith([](int percent) { return std::to_string(percent) + "percent"; }));
 
-// Bullet's soft demo: the nearest node of the face that was hit gets, before every step, the velocity that would take
-// it to the mouse.
+// Bullet's soft demo: before each step the nearest node of the hit face gets the velocity that would take it to the
+// mouse.
 TEST_P(PickingInTheSoftDemo, NodeVelocityDragsTheBodyForFiveSeconds)
 {
     struct Drag
@@ -108,14 +109,15 @@ TEST_P(PickingInTheSoftDemo, NodeVelocityDragsTheBodyForFiveSeconds)
         farthest = std::max(farthest, double(drag.m_node->m_x.distance(drag.m_goal)));
         ASSERT_TRUE(allFinite(body));
     }
-    // The demo's drag is an undamped spring of m_node / step^2, on which the body falls by twice its sag and swings.
+    // The demo's drag is an undamped spring of stiffness m_node / step^2, on which the body falls by twice its static
+    // elongation and swings.
     const double sag = kGravity * kMass * double(drag.m_node->m_im) * double(kStep * kStep);
     EXPECT_LT(most, 0.5 * kMass * kGravity * sag + 0.5 * kMass * 3 * 3);
     EXPECT_GT(most, 0.1 * kMass * kGravity * sag);
     EXPECT_LT(farthest, 5 * sag);
 }
 
-// As engines lead soft bodies: the node is pinned, and its position written.
+// Dragging as in engines: the node is pinned, and its position written.
 TEST_P(Picking, PinnedNodePositionDragsTheBodyForFiveSeconds)
 {
     m_world.step();
@@ -141,8 +143,8 @@ TEST_P(Picking, PinnedNodePositionDragsTheBodyForFiveSeconds)
     EXPECT_LT(fastestNode(m_body), 30);
 }
 
-// A node that is free and written to every step pulls by its own mass alone; nothing blows up. After two hundred steps
-// the body has fallen fifty metres from the node, and how it swings from there on differs by up to 25 m/s between paths
+// A free node whose position is written in each step pulls with its own mass only; the energy stays bounded. After two
+// hundred steps the body is fifty metres below the node, and its further swing differs by up to 25 m/s between paths
 // that differ by a thousandth.
 TEST_P(Picking, FreeNodeMotionAddsNoEnergy)
 {
@@ -197,8 +199,8 @@ class Dragging : public EachWorldWith<SpringCase>
 {
 };
 
-// The target moves at up to 5 m/s. A body that follows it and swings about it is not faster than a few times that;
-// let go, it flies on as fast as it was.
+// The target moves at up to 5 m/s. The body that follows it with oscillations is at most a few times faster; released,
+// it keeps its speed.
 TEST_P(Dragging, SpringKeepsEnergyBoundedAndReleasesGently)
 {
     const SpringCase& c = value();
@@ -259,7 +261,7 @@ INSTANTIATE_TEST_SUITE_P(OtherWorlds, Dragging,
                                           testing::Values(kSprings[0], kSprings[1])),
                          nameOfWorldWith(springName));
 
-// A target that jumps tears at the body with the largest force and no more.
+// A target that jumps pulls at most with the maximum force.
 TEST_P(Picking, LimitedSpringSurvivesAJumpingTarget)
 {
     m_world.step();
@@ -277,7 +279,7 @@ TEST_P(Picking, LimitedSpringSurvivesAJumpingTarget)
     EXPECT_LT(norm(centerOf(m_body)), 3.5);
 }
 
-// What lies on the floor and is pulled aside.
+// A body on the floor is pulled sideways.
 TEST_P(Picking, SpringDragsABodyOverTheFloorAgainstFriction)
 {
     const btRigidBody& plane = m_world.addPlane(btScalar(-0.2));
@@ -294,7 +296,7 @@ TEST_P(Picking, SpringDragsABodyOverTheFloorAgainstFriction)
         m_world.step();
     }
     EXPECT_NEAR(velocityOf(m_body).x, 0.5, 0.05);
-    // The spring pulls against friction, mu = 0.5 times the plane's 1, and carries a part of the weight.
+    // The spring balances friction, mu = 0.5 times the plane's 1, and carries a part of the weight.
     const btVector3 pull = m_fem.anchors(&m_body)[0].m_impulse / kStep, floor = m_fem.contactForce(&m_body, &plane);
     EXPECT_NEAR(pull.x(), 5e3 * double(target.x() - pointOf(spring).x()) - 800 * 0.5, 0.03 * kMass * kGravity);
     EXPECT_NEAR(pull.x(), -floor.x(), 0.02 * kMass * kGravity);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Rays against FEM bodies.
+//
+// Ray tests against FEM bodies.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -64,7 +65,7 @@ btSoftBody* cage(Scene& scene)
     return btFemHelpers::createFromSurface(scene.m_world.info(), octahedron, settings);
 }
 
-// As Panda3D and others make bodies: node by node, links and faces as they like.
+// Bodies assembled as in Panda3D and others: node by node, with or without links and faces.
 btSoftBody* assembled(Scene& scene, bool links, bool faces)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {3, 3, 3});
@@ -84,7 +85,7 @@ struct RayCase
 {
     const char* m_name;
     Maker m_make;
-    bool m_ordered;  // faces and tetrahedra in an order that makes Bullet say face
+    bool m_ordered;  // true: the order of faces and tetrahedra makes Bullet report a face
 };
 
 class RayTestOfAFemBody : public EachWorldWith<RayCase>
@@ -95,7 +96,7 @@ protected:
         m_scene.m_world.addPlane(btScalar(-1.2));
     }
 
-    // Bullet's rayTest and ours against brute force.
+    // Compares Bullet's rayTest and btFem's with brute force.
     void compare()
     {
         const int count = worldClass() == WorldClass::softRigid ? kRays : kRays / 4;
@@ -118,7 +119,7 @@ protected:
             const bool tet = found.feature == btSoftBody::eFeature::Tetra;
             const double error = std::fabs(found.fraction - reference.m_fraction);
             asTets += tet;
-            // A side of a tetrahedron that is seen from the edge may be found before the surface, by rounding.
+            // A tetrahedron's face that is parallel to the ray may be found before the surface, by rounding.
             const bool early = tet && found.fraction < reference.m_fraction;
             wrong += early && error > reference.tolerance(vec3(from), vec3(to));
             ASSERT_TRUE(early || error < reference.tolerance(vec3(from), vec3(to))) << "ray " << k << ", " << error;
@@ -195,7 +196,7 @@ class RayTestTermination : public EachWorld
 
 INSTANTIATE_TEST_SUITE_P(Worlds, RayTestTermination, eachWorld(), nameOfWorld);
 
-// Bullet's own tree is never finished where faces or nodes are not connected.
+// Bullet's own tree never terminates for unconnected faces or nodes.
 TEST_P(RayTestTermination, HoldsForAnyChangeOfFaces)
 {
     Scene scene(GetParam());
@@ -205,7 +206,7 @@ TEST_P(RayTestTermination, HoldsForAnyChangeOfFaces)
     scene.m_fem.prepare(&body, kStep);
     EXPECT_TRUE(body.rayTest(from, to, found));
     scene.m_world.step();
-    for (int k = 0; k < 40; ++k) body.appendFace(0, 1, 2);  // moves the faces in memory
+    for (int k = 0; k < 40; ++k) body.appendFace(0, 1, 2);  // reallocates the faces
     scene.m_world.step();
     EXPECT_TRUE(body.rayTest(from, to, found));
     EXPECT_TRUE(body.rayFaceTest(from, to, found));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// Rays through a world with FEM bodies.
+//
+// Ray tests in a world with FEM bodies.
 #include <gtest/gtest.h>
 
 #include "bullet_fem/btFemRay.h"
@@ -24,7 +25,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Worlds, WorldRayTest, eachWorld(), nameOfWorld);
 
-// Bullet's tolerance is an absolute one, which makes triangles of 1 cm as large as a hand.
+// Bullet's tolerance is absolute, and enlarges triangles of 1 cm to the size of a hand.
 TEST_P(WorldRayTest, IsExactForSmallTrianglesWithOurCallback)
 {
     const int count = GetParam() == WorldClass::softRigid ? kRays : kRays / 10;

@@ -17,7 +17,7 @@
 namespace bullet_fem
 {
 
-/// Soft cubes and rigid boxes of 0.5 m that hold each other.
+/// Soft cubes and rigid boxes of 0.5 m with anchors between them.
 class AnchorScene
 {
 public:
@@ -49,7 +49,7 @@ public:
                                 {mass, at(position.x(), position.y(), position.z())});
     }
 
-    /// Nodes at this height.
+    /// Indices of the nodes at this height.
     static std::vector<int> nodesAt(const btSoftBody& body, double height)
     {
         std::vector<int> nodes;
@@ -81,7 +81,7 @@ public:
         return largest;
     }
 
-    /// Largest difference between an object's pull and `load` [N] in a number of steps, as a share of the load.
+    /// Maximum difference between an object's anchor force and `load` [N] over a number of steps, relative to the load.
     double worstForce(int steps, const btSoftBody& body, const btCollisionObject& object, const Vec3& load)
     {
         double worst = 0;

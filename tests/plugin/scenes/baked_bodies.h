@@ -12,7 +12,7 @@ namespace bullet_fem
 /// Whether this program's Bullet is in single precision.
 constexpr bool kSingle = sizeof(btScalar) == sizeof(float);
 
-/// Written to a file and read again.
+/// Writes the body to a file and reads it back.
 inline BakedBody throughAFile(const BakedBody& baked)
 {
     const TemporaryFolder folder;
@@ -20,7 +20,7 @@ inline BakedBody throughAFile(const BakedBody& baked)
     return readBakedBody(folder.path("body.bfem"));
 }
 
-/// Settings of a body that is not baked.
+/// The settings of an unbaked body.
 inline btFemMaterial bulletMaterial(const Material& m)
 {
     btFemMaterial material;
@@ -33,7 +33,7 @@ inline btFemMaterial bulletMaterial(const Material& m)
     return material;
 }
 
-/// Its corners are at this distance from the centre [m].
+/// An octahedron whose corners are at this distance from the centre [m].
 inline SurfaceMesh octahedron(double radius, const Vec3& centre)
 {
     SurfaceMesh surface;

@@ -9,15 +9,15 @@
 namespace bullet_fem
 {
 
-/// What of a world's state is Bullet's own: motion and sleep of rigid bodies, bounds and pairs of the broad phase. Not
-/// what contacts between rigid bodies remember: restore() lets go of them. To continue from a state with such contacts
-/// to the bit, restore it once as it is taken.
+/// Bullet's part of a world's state: motion and sleep of rigid bodies, bounds and pairs of the broad phase. Without the
+/// warm starts of contacts between rigid bodies, which restore() clears. To continue bitwise equal from a state with
+/// such contacts, restore it once when it is saved.
 class BulletState
 {
 public:
     explicit BulletState(SoftWorld& world);
 
-    /// Puts it back; the world must hold the same objects.
+    /// Restores the state; the world must contain an unchanged set of objects.
     void restore(SoftWorld& world) const;
 
 private:
@@ -42,7 +42,7 @@ private:
     std::vector<Rigid> m_rigid;
     std::vector<Bounds> m_bounds;
     std::vector<Pair> m_pairs;    // in order
-    int m_cleanUpAt, m_newPairs;  // old pairs are taken out a few a step, from here on; the order of pairs follows
+    int m_cleanUpAt, m_newPairs;  // old pairs are removed a few a step, from here on; the order of pairs depends on it
 };
 
 }  // namespace bullet_fem

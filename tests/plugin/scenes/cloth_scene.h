@@ -22,7 +22,7 @@ namespace bullet_fem
 
 constexpr btScalar kClothMargin = btScalar(0.02);  ///< of the cloth here [m]
 
-/// A world, and how its rigid bodies are solved.
+/// The kind of world, with its rigid solver.
 enum class ClothWorldKind
 {
     swap,
@@ -43,7 +43,7 @@ inline auto eachClothWorld()
                            ClothWorldKind::deformable);
 }
 
-/// Those in which Bullet moves cloth by positions (btSoftBody::solveConstraints).
+/// The worlds in which Bullet moves cloth by positions (btSoftBody::solveConstraints).
 inline auto eachSoftClothWorld()
 {
     return testing::Values(ClothWorldKind::swap, ClothWorldKind::coupled, ClothWorldKind::multiBody);
@@ -66,7 +66,7 @@ public:
     FemWorld& world() { return m_world; }
     btFemSoftBodySolver& fem() { return m_world.fem(); }
 
-    /// The flag by which soft bodies collide there.
+    /// The flag for collision of soft bodies in that world.
     int softFlag() const
     {
         return m_kind == ClothWorldKind::deformable ? btSoftBody::fCollision::VF_DD : btSoftBody::fCollision::VF_SS;
@@ -93,7 +93,7 @@ public:
         return m_world.addSoft(ball);
     }
 
-    /// A square around a point, of this edge [m] and mass [kg], with so many nodes along every edge.
+    /// Adds a square cloth around a point, with this edge [m], mass [kg] and number of nodes along each edge.
     btSoftBody& addPatch(const Vec3& center, double edge, double mass, int nodes, int fixedCorners = 0)
     {
         const btScalar a = btScalar(0.5 * edge);
@@ -104,7 +104,7 @@ public:
         return add(cloth, mass);
     }
 
-    /// A rope between two points, of so many nodes.
+    /// Adds a rope between two points, with this number of nodes.
     btSoftBody& addRope(const Vec3& from, const Vec3& to, double mass, int nodes, int fixedEnds = 0)
     {
         return add(

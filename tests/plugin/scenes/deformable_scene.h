@@ -25,7 +25,7 @@ namespace bullet_fem
 using DeformableWorld =
     LinkWorld<btDeformableMultiBodyDynamicsWorld, btDeformableMultiBodyConstraintSolver, btDeformableBodySolver>;
 
-/// Of the bodies here [Pa], [-], [kg/m3], and Lame's coefficients of that [Pa].
+/// Material of the bodies here [Pa], [-], [kg/m3], and its Lame coefficients [Pa].
 constexpr double kYoung = 2e5, kPoisson = 0.3, kDensity = 1000;
 constexpr double kMu = kYoung / (2 * (1 + kPoisson));
 constexpr double kLambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
@@ -51,13 +51,13 @@ inline std::unique_ptr<btDeformableLagrangianForce> makeForce(Elastic elastic, d
     return std::make_unique<btDeformableNeoHookeanForce>(m, l, btScalar(0.01));
 }
 
-/// Soft boxes and cloth as programs for Bullet's deformables have them.
+/// Soft boxes and cloth as in programs for Bullet's deformables.
 class DeformableWorldTest : public ::testing::Test
 {
 protected:
     DeformableWorldTest() : m_world(m_solver) {}
 
-    // A box of kDensity with its lower face at `lowest`, as Bullet's programs have it.
+    // Adds a box of density kDensity with its lower face at `lowest`, as Bullet's programs do.
     btSoftBody& addBox(DeformableWorld& world, const Vec3& size, const std::array<int, 3>& cells, const Vec3& center)
     {
         btSoftBody* body = btFemHelpers::createFromTetMesh(world.info(), makeBox(size, cells));
@@ -85,7 +85,7 @@ protected:
         return *m_forces.back();
     }
 
-    // What Bullet's file readers add.
+    // Sets the data that Bullet's file readers add.
     static void makeReadyForBullet(btSoftBody& body)
     {
         for (int t = 0; t < body.m_tetras.size(); ++t)

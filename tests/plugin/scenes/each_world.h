@@ -12,12 +12,12 @@
 namespace bullet_fem
 {
 
-/// What holds in each class of Bullet's worlds.
+/// A test over the classes of Bullet's worlds.
 class EachWorld : public testing::TestWithParam<WorldClass>
 {
 };
 
-/// And for each of other values.
+/// A test over the classes of worlds and another parameter.
 template <class T>
 class EachWorldWith : public testing::TestWithParam<std::tuple<WorldClass, T>>
 {
@@ -29,7 +29,7 @@ protected:
     static const T& value() { return std::get<1>(testing::TestWithParam<std::tuple<WorldClass, T>>::GetParam()); }
 };
 
-/// To be instantiated over.
+/// The parameters of EachWorld.
 inline auto eachWorld()
 {
     return testing::Values(WorldClass::softRigid, WorldClass::softMultiBody, WorldClass::deformable);
@@ -40,7 +40,7 @@ inline std::string nameOfWorld(const testing::TestParamInfo<WorldClass>& suite)
     return worldName(suite.param);
 }
 
-/// Names for EachWorldWith; `name` gives one to the other value.
+/// Test names for EachWorldWith; `name` names the other parameter.
 template <class Name>
 auto nameOfWorldWith(Name name)
 {

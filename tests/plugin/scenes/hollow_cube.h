@@ -48,7 +48,7 @@ inline btFemCable cableThrough(std::initializer_list<int> nodes)
     return cable;
 }
 
-// Nodes at the lower edges' ends.
+// Node at the corner (0.3 x, 0.3 y, 0); x and y are 0 or 1.
 inline int corner(int x, int y)
 {
     const std::vector<Vec3> X = hollowCube().restPositions();

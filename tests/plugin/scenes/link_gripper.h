@@ -8,15 +8,15 @@
 namespace bullet_fem
 {
 
-/// A soft cube of 1 kg on a pedestal between the fingers of a gripper: a palm on a vertical slider, and on it two
-/// fingers on sliders along x, all with motors. Its fingers reach far below the cube.
+/// A soft cube of 1 kg on a pedestal between the fingers of a gripper: a palm on a vertical slider with two fingers on
+/// sliders along x, all motorised. Its fingers reach far below the cube.
 template <class World>
 class LinkGripper
 {
 public:
-    static constexpr double kSpeed = 0.1;  ///< at which its motors close it [m/s]
+    static constexpr double kSpeed = 0.1;  ///< closing speed of its motors [m/s]
 
-    /// `force` of the fingers' motors at most [N]
+    /// force: maximum force of the fingers' motors [N].
     LinkGripper(World& world, btFemSoftBodySolver& fem, double force) : m_world(world), m_fem(fem)
     {
         RigidSettings settings;
@@ -37,7 +37,7 @@ public:
             m_hand->setupPrismatic(1 + side, 1, boxInertia(1, finger), 0, kNoTurn, btVector3(side ? -1 : 1, 0, 0),
                                    btVector3(btScalar(side ? 0.075 : -0.075), 0, btScalar(-0.65)), none, false);
         world.addMultiBody(m_hand);
-        world.addCollider(*m_hand, 0, new btBoxShape(palm));  // Bullet forgets motors of links without one
+        world.addCollider(*m_hand, 0, new btBoxShape(palm));  // Bullet ignores motors of links without a collider
         m_lift = &world.template addConstraint<btMultiBodyJointMotor>(m_hand, 0, btScalar(0), 1000 * kStep);
         for (const int side : {0, 1})
         {

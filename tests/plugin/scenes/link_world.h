@@ -22,8 +22,8 @@
 namespace bullet_fem
 {
 
-/// A world of multibodies, rigid and soft bodies that deletes them all. Gravity is along -z; nothing falls asleep
-/// unless its activation state is set. Bodies are kept in the order in which they came.
+/// A world of multibodies, rigid and soft bodies, which it owns. Gravity is along -z; bodies do not sleep unless their
+/// activation state is set. Bodies are kept in the order of addition.
 template <class World, class RigidSolver, class SoftSolver>
 class LinkWorld
 {
@@ -86,7 +86,7 @@ public:
         return *body;
     }
 
-    /// Takes over a multibody whose links were set up, without damping.
+    /// Takes ownership of a multibody with links, and sets its damping to zero.
     btMultiBody& addMultiBody(btMultiBody* body)
     {
         m_multiBodies.emplace_back(body);
@@ -97,7 +97,7 @@ public:
         return *body;
     }
 
-    /// Gives a link, or the base (-1), its shape.
+    /// Sets the shape of a link, or of the base (-1).
     btMultiBodyLinkCollider& addCollider(btMultiBody& body, int link, btCollisionShape* shape)
     {
         m_shapes.emplace_back(shape);

@@ -18,7 +18,7 @@ namespace bullet_fem
 inline const btVector3 kNoGravity(0, 0, 0);
 inline const btQuaternion kNoTurn = btQuaternion::getIdentity();
 
-/// Of a box with these half edges [kg m2].
+/// Principal moments of inertia of a box with these half edges [kg m2].
 inline btVector3 boxInertia(btScalar mass, const btVector3& half)
 {
     btVector3 inertia;
@@ -26,7 +26,7 @@ inline btVector3 boxInertia(btScalar mass, const btVector3& half)
     return inertia;
 }
 
-/// Momenta of all links and the base, if that can move.
+/// Momenta of all links and of the base if it is movable.
 inline Motion motionOfLinks(btMultiBody& body)
 {
     Motion sum;
@@ -47,11 +47,11 @@ inline Motion motionOfLinks(btMultiBody& body)
     return sum;
 }
 
-/// Sliders, pendulums and soft cubes.
+/// Fixture with sliders, pendulums and soft cubes.
 class MultiBodyWorldTest : public ::testing::Test
 {
 protected:
-    // A box on a slider along `axis` whose joint is at the world's origin; the box is at `center` to begin with.
+    // A box on a slider along `axis` whose joint is at the world's origin; the box starts at `center`.
     btMultiBodyLinkCollider& addSlider(MultiBodyWorld& world, btScalar mass, const btVector3& axis,
                                        const btVector3& half, const btVector3& center)
     {
@@ -60,7 +60,7 @@ protected:
         return world.addCollider(world.addMultiBody(body), 0, new btBoxShape(half));
     }
 
-    // A beam that hangs from a hinge along y at the origin; `half` of its box.
+    // A beam on a hinge along y at the origin; `half` are the half edges of its box.
     btMultiBodyLinkCollider& addPendulum(MultiBodyWorld& world, btScalar mass, const btVector3& half)
     {
         auto* body = new btMultiBody(1, 0, btVector3(0, 0, 0), true, false);

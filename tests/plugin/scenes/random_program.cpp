@@ -21,9 +21,9 @@ namespace
 {
 
 constexpr int kMaxSoft = 5, kMaxRigid = 8;
-// What a long step turns far is stretched by it, and springs back in a much shorter one (docs/reliability.md).
-constexpr double kShorterSteps = 4;  // at most so many times shorter is the next step of a gentle program
-constexpr double kThrown = 10;       // [m/s], [rad/s]: by a gentle program
+// A large rotation in a long step stretches the body, which springs back in a much shorter step (docs/reliability.md).
+constexpr double kShorterSteps = 4;  // maximum ratio of a gentle program's consecutive steps
+constexpr double kThrown = 10;       // [m/s], [rad/s]: initial speed in a gentle program
 
 void addTo(std::vector<btScalar>& all, const std::vector<btScalar>& more)
 {
@@ -127,7 +127,7 @@ void RandomProgram::act(unsigned number)
     {
         ++m_refusals;
     }
-    catch (const std::runtime_error&)  // a factor that rounding makes none
+    catch (const std::runtime_error&)  // rounding makes the matrix indefinite
     {
         if (m_last != std::string("refactor") && m_last != std::string("prepare")) throw;
         ++m_refusals;
@@ -218,8 +218,7 @@ void RandomProgram::stepWorld(int count, double h)
     m_steps += count;
 }
 
-// Bullet moves what is not FEM, with whatever was written to it, and what is anchored to it, from the step on that
-// refuses it.
+// From the step that rejects a body on Bullet moves it, with all written values, and its anchors.
 void RandomProgram::removeRejected()
 {
     const std::vector<btSoftBody*> all = m_soft;
@@ -231,7 +230,7 @@ void RandomProgram::removeRejected()
     }
 }
 
-// Bullet's anchors of a body far away overflow single precision.
+// Bullet's anchors of a distant body overflow single precision.
 void RandomProgram::removeLost(const btSoftBody& rejected)
 {
     std::vector<btRigidBody*> lost;
@@ -272,7 +271,7 @@ void RandomProgram::addBall()
     addSoft(body);
 }
 
-// As few as one, in no good shape.
+// At least one, of poor shape.
 void RandomProgram::addTets()
 {
     auto* body = new btSoftBody(&m_world.info());
@@ -296,7 +295,7 @@ void RandomProgram::remove(btSoftBody* body)
     m_world.deleteSoft(*body);
 }
 
-// Bullet's joints hold addresses.
+// Bullet's joints store addresses.
 void RandomProgram::forgetJoints()
 {
     for (btSoftBody* body : m_soft)
@@ -310,11 +309,11 @@ void RandomProgram::readd()
 {
     btSoftBody* body = anySoft();
     m_world.take(*body);
-    const bool away = one(2);  // in a step
+    const bool away = one(2);  // absent during a step
     if (away) stepWorld(1, 1.0 / 60);
     m_world.put(*body);
     if (!away) return;
-    stepWorld(1, 1.0 / 60);  // puts back what was written to it
+    stepWorld(1, 1.0 / 60);  // restores written values
     removeRejected();
 }
 
@@ -380,7 +379,7 @@ void RandomProgram::removeRigid()
 void RandomProgram::remove(btRigidBody* body)
 {
     m_rigid.erase(std::find(m_rigid.begin(), m_rigid.end(), body));
-    for (btSoftBody* soft : m_soft)  // Bullet's anchors hold addresses
+    for (btSoftBody* soft : m_soft)  // Bullet's anchors store addresses
         for (int k = soft->m_anchors.size() - 1; k >= 0; --k)
             if (soft->m_anchors[k].m_body == body)
             {
@@ -396,7 +395,7 @@ void RandomProgram::throwRigid()
     const bool gentle = m_manner == Manner::gentle;
     const double fast = gentle ? kThrown : 300;
     const btVector3 velocity = vector(logarithmic(0.1, fast)), spin = vector(logarithmic(0.1, fast));
-    // A static one stays, and pushes what it touches without end.
+    // A static body stays, and pushes bodies in contact forever.
     const bool stays = gentle && body->isStaticObject();
     body->setLinearVelocity(stays ? btVector3(0, 0, 0) : velocity);
     body->setAngularVelocity(stays ? btVector3(0, 0, 0) : spin);
@@ -576,7 +575,7 @@ void RandomProgram::remember()
     anySoft()->initializeDmInverse();
 }
 
-// Bullet's appendNode may move the nodes, and forgets that tetrahedra, clusters and joints point at them.
+// Bullet's appendNode may reallocate the nodes, and leaves pointers of tetrahedra, clusters and joints dangling.
 void RandomProgram::append()
 {
     btSoftBody& body = *anySoft();
@@ -595,7 +594,7 @@ void RandomProgram::append()
 void RandomProgram::removeTets()
 {
     btSoftBody& body = *anySoft();
-    if (body.m_tetras.size() > 1) body.m_tetras.pop_back();  // without any it is Bullet's
+    if (body.m_tetras.size() > 1) body.m_tetras.pop_back();  // without any the body is Bullet's
 }
 
 void RandomProgram::prepare()
@@ -692,12 +691,12 @@ void RandomProgram::setActivation()
         anyRigid()->forceActivationState(states[below(4)]);
 }
 
-// The same steps from the same state have the same bits, as long as Bullet's broad phase finds pairs in the same order,
-// which depends on the history of its trees.
+// Equal steps from equal states are bitwise equal, as long as Bullet's broad phase finds pairs in an equal order, which
+// depends on the history of its trees.
 void RandomProgram::replay()
 {
     if (m_soft.empty()) return;
-    stepWorld(1, 1.0 / 60);  // bodies that came since the last one are not saved before it
+    stepWorld(1, 1.0 / 60);  // bodies added since the last step are not saved before it
     m_fem.saveState(m_state);
     const BulletState state(m_world);
     constexpr int kReplayed = 5;  // steps

@@ -11,30 +11,30 @@
 namespace bullet_fem
 {
 
-/// What a random program does.
+/// The kind of calls that a random program makes.
 enum class Manner
 {
-    hostile,  ///< what a program can call, in any order: bodies are torn and crushed, bad values are written
-    gentle    ///< what a game does: bodies come and go, are thrown, held, saved and restored; energy stays bounded
+    hostile,  ///< any call of the interface, in any order: bodies are torn and crushed, bad values are written
+    gentle  ///< the calls of a game: bodies are added, removed, thrown, held, saved and restored; energy stays bounded
 };
 
-/// A program that calls what a program can call, in any order. The same number gives the same program, and what an act
-/// does depends on its own number alone, so that acts can be left out.
+/// A program of random calls. Equal seeds give equal programs, and the effect of an act depends on its own number only,
+/// so that acts can be left out.
 class RandomProgram
 {
 public:
     RandomProgram(WorldClass worldClass, Coupling coupling, unsigned number, Manner manner = Manner::hostile);
 
-    /// Does something, or steps. A refusal (std::invalid_argument) is an answer like any other.
+    /// Makes a call, or steps. A rejection (std::invalid_argument) is accepted.
     void act(unsigned number);
 
-    /// What act() did last, for messages.
+    /// Name of the last act(), for messages.
     const char* lastAct() const { return m_last; }
     int refusals() const { return m_refusals; }
-    long steps() const { return m_steps; }        ///< of the world, so far
-    bool replayed() const { return m_replayed; }  ///< false: a restored state went another way, once
+    long steps() const { return m_steps; }        ///< world steps so far
+    bool replayed() const { return m_replayed; }  ///< false: a restored state continued differently, once
     FemWorld& world() { return m_world; }
-    const std::vector<btSoftBody*>& soft() const { return m_soft; }  ///< in the world, in the order in which they came
+    const std::vector<btSoftBody*>& soft() const { return m_soft; }  ///< in the world, in the order of addition
     const std::vector<btRigidBody*>& rigid() const { return m_rigid; }
 
 private:
@@ -51,7 +51,7 @@ private:
     double logarithmic(double from, double to);
     int below(int count);
     bool one(int in) { return below(in) == 0; }
-    bool bad(int in) { return one(in) && m_manner == Manner::hostile; }  // now and then
+    bool bad(int in) { return one(in) && m_manner == Manner::hostile; }  // occasionally
     void stepWorld(int count, double h);
     btVector3 vector(double size);
     btVector3 place();
@@ -123,7 +123,7 @@ private:
     const char* m_last = "";
     int m_refusals = 0;
     long m_steps = 0;
-    double m_step = 0;  // the last one's length [s]
+    double m_step = 0;  // length of the last step [s]
     bool m_replayed = true;
 };
 

@@ -12,10 +12,10 @@
 namespace bullet_fem
 {
 
-constexpr int kRays = 10000;       ///< that a body is tried with
-constexpr double kRayEdge = 0.02;  ///< barycentric: nearer to an edge than this, Bullet may take the neighbour
+constexpr int kRays = 10000;       ///< number of rays for each body
+constexpr double kRayEdge = 0.02;  ///< barycentric: closer to an edge Bullet may report the neighbour
 
-/// The first face that a ray meets, by the plane of every triangle.
+/// The first face hit by a ray, by intersection with each triangle.
 struct RayReference
 {
     int m_face = -1;  ///< none
@@ -24,7 +24,7 @@ struct RayReference
     double m_cosine = 1;    ///< between ray and normal
     double m_nearMiss = 2;  ///< smallest fraction of a triangle that the ray just misses
 
-    /// What single precision can tell of the fraction.
+    /// Resolution of the fraction in single precision.
     double tolerance(const Vec3& from, const Vec3& to) const
     {
         return 1e-6 * (1 + norm(from) / norm(to - from)) / m_cosine;
@@ -32,7 +32,7 @@ struct RayReference
     bool isClear() const { return m_face >= 0 && m_smallest > kRayEdge && m_nearMiss > m_fraction; }
 };
 
-/// Over all faces of a body, in double precision.
+/// Tests all faces of a body, in double precision.
 inline RayReference bruteForce(const btSoftBody& body, const Vec3& from, const Vec3& to)
 {
     RayReference best;
@@ -53,7 +53,7 @@ inline RayReference bruteForce(const btSoftBody& body, const Vec3& from, const V
             smallest = std::min(smallest, dot(cross(b - p, c - p), n) / dot(n, n));
         }
         const double cosine = std::fabs(slope) / (norm(n) * norm(to - from));
-        // In single precision, triangles that are seen from the edge may be anywhere along the ray.
+        // In single precision, triangles parallel to the ray may be hit anywhere along it.
         if (smallest < 0 && smallest > -kRayEdge / cosine) nearMiss = std::min(nearMiss, t - 1e-4 / cosine);
         if (smallest >= 0 && t >= 0 && t <= 1 && t < best.m_fraction) best = {f, t, smallest, cosine, 2};
     }
@@ -61,7 +61,7 @@ inline RayReference bruteForce(const btSoftBody& body, const Vec3& from, const V
     return best;
 }
 
-/// Ends of random rays through the body's neighbourhood: from a sphere around it to a point near it, and as far again.
+/// End points of random rays near the body: from a sphere around it through a point near it, to twice the distance.
 class Rays
 {
 public:

@@ -12,18 +12,18 @@
 namespace bullet_fem
 {
 
-/// The momentum balance of a FEM body that was held from its first step on, in steps of kStep.
+/// The momentum balance of a FEM body with fixed nodes from its first step on, in steps of kStep.
 class ReactionBalance
 {
 public:
-    /// `mass` of every node, held ones included [kg].
+    /// `mass` of each node, fixed ones included [kg].
     ReactionBalance(const btFemSoftBodySolver& fem, const btSoftBody& body, std::vector<double> mass)
         : m_fem(fem), m_body(body), m_mass(std::move(mass))
     {
         note();
     }
 
-    /// Before a step.
+    /// Call before a step.
     void note()
     {
         m_linear = m_angular = {};
@@ -32,7 +32,7 @@ public:
         m_angular = -m_angular;
     }
 
-    /// After it: change of momentum / h - gravity - reactions - contacts - anchors; moments about the origin.
+    /// After the step: change of momentum / h - gravity - reactions - contacts - anchors; moments about the origin.
     struct Error
     {
         Vec3 m_force, m_moment;
@@ -89,7 +89,7 @@ private:
     Vec3 m_linear, m_angular;
 };
 
-/// Masses of the nodes as they are [kg], before they are pinned.
+/// Present masses of the nodes [kg], before they are pinned.
 inline std::vector<double> nodeMasses(const btSoftBody& body)
 {
     std::vector<double> mass;
@@ -97,7 +97,7 @@ inline std::vector<double> nodeMasses(const btSoftBody& body)
     return mass;
 }
 
-/// Nodes within a box that is given by two corners [m].
+/// Nodes within the box between two corners [m].
 inline std::vector<int> nodesWithin(const btSoftBody& body, const Vec3& low, const Vec3& high)
 {
     std::vector<int> nodes;

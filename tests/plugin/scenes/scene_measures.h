@@ -28,24 +28,24 @@ struct Motion
 Motion motionOf(const btSoftBody& body);
 Motion motionOf(const btRigidBody& body);
 
-/// [kg], of the nodes that are not pinned.
+/// Mass of the nodes that are not pinned [kg].
 double massOf(const btSoftBody& body);
 Vec3 centerOf(const btSoftBody& body);    ///< centre of mass [m]
 Vec3 velocityOf(const btSoftBody& body);  ///< of the centre of mass [m/s]
 
 double lowestHeight(const btSoftBody& body);        ///< smallest z of a node [m]
 double fastestNode(const btSoftBody& body);         ///< [m/s]
-bool allFinite(const btSoftBody& body);             ///< m_x, m_v, m_q and m_f of every node
-std::vector<Vec3> edgesOf(const btSoftBody& body);  ///< from node 0 to every node [m]
+bool allFinite(const btSoftBody& body);             ///< m_x, m_v, m_q and m_f of each node
+std::vector<Vec3> edgesOf(const btSoftBody& body);  ///< vectors from node 0 to each node [m]
 
-/// Largest difference between two lists of vectors.
+/// Maximum difference between two lists of vectors.
 double largestDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
-/// Positions and velocities of all nodes, to the bit; of a rigid body its placement and velocities.
+/// Bits of positions and velocities of all nodes; of a rigid body its transform and velocities.
 std::vector<btScalar> bitsOf(const btSoftBody& body);
 std::vector<btScalar> bitsOf(const btRigidBody& body);
 
-/// Sum of the impulses that a body felt in the last step, of `other` alone if it is given [N s].
+/// Sum of the contact impulses on a body in the last step, or only of those by `other` [N s].
 Vec3 impulseOn(const btFemSoftBodySolver& solver, const btSoftBody& body, const btCollisionObject* other = nullptr);
 
 }  // namespace bullet_fem

@@ -8,7 +8,7 @@
 namespace bullet_fem
 {
 
-/// A body in a cage of a surface, which collides or does not.
+/// A body in a cage with a render surface, which may collide.
 struct SkinBody
 {
     SurfaceMesh m_surface;
@@ -21,20 +21,20 @@ struct SkinBody
 /// A ball of radius 0.5 m around a point, of 1,280 triangles, in a cage of eight cells across.
 SkinBody skinBall(const Vec3& centre);
 
-/// A box with these edges [m] around a point, of squares of some 0.1 m unless told otherwise, in a cage that stands out
-/// on all sides.
+/// A box with these edges [m] around a point, of squares of some 0.1 m by default, in a cage that protrudes on all
+/// sides.
 SkinBody skinBox(const Vec3& size, const Vec3& centre, double square = 0.1);
 
-/// Makes one, of 1000 kg/m3; the caller owns it.
+/// Makes the body, of 1000 kg/m3; the caller owns it.
 btSoftBody* makeSkinBody(SoftWorld& world, btFemSoftBodySolver& fem, const SkinBody& body);
 
-/// And adds it to the world.
+/// Makes the body and adds it to the world.
 btSoftBody& addSkinBody(SoftWorld& world, btFemSoftBodySolver& fem, const SkinBody& body);
 
-/// Gives a body its own boundary as the surface to draw.
+/// Makes a body's own boundary its render surface.
 void drawBoundary(btSoftBody& body);
 
-/// Smallest height of a vertex of the drawn surface over the plane through the origin with this normal [m].
+/// Minimum height of a render vertex above the plane through the origin with this normal [m].
 double lowestVertex(const btSoftBody& body, const Vec3& normal = {0, 0, 1});
 
 }  // namespace bullet_fem

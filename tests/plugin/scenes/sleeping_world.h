@@ -11,9 +11,9 @@
 namespace bullet_fem
 {
 
-constexpr int kFiveSeconds = 300;  ///< steps in which a body at rest must have fallen asleep
+constexpr int kFiveSeconds = 300;  ///< steps within which a body at rest must fall asleep
 
-/// Cubes of 0.4 m that may sleep, and rigid bodies that do as Bullet's do by default.
+/// Cubes of 0.4 m and rigid bodies, all with Bullet's default sleeping.
 class SleepingScene
 {
 protected:
@@ -46,7 +46,7 @@ protected:
         return sphere;
     }
 
-    /// A box of 0.2 m that the user moves.
+    /// A kinematic box of 0.2 m.
     btRigidBody& addPusher(const btTransform& transform)
     {
         btRigidBody& pusher = m_world.addRigid(new btBoxShape(btVector3(0.1, 0.1, 0.1)), {0, transform});
@@ -62,7 +62,7 @@ protected:
         ASSERT_EQ(body.getActivationState(), ISLAND_SLEEPING);
     }
 
-    /// Returns the time for which a body has been slow then [s].
+    /// Makes a body rest for more than a second; returns its deactivation time then [s].
     btScalar restForMoreThanASecond(const btSoftBody& body)
     {
         m_world.step(100);

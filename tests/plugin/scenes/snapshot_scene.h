@@ -14,9 +14,9 @@
 namespace bullet_fem
 {
 
-/// FEM bodies in all kinds of contact, and rigid ones that touch nothing else: a tower of two soft boxes and a rigid
-/// one, which is pushed; a soft box that slides down a slope; one that falls on a triangle mesh; one that is pinned at
-/// one end, led by a target at the other, and has a rigid box hanging from it; two that are tied to each other.
+/// FEM bodies in all kinds of contact, with rigid ones that have no contacts among themselves: a tower of two soft
+/// boxes and a pushed rigid one; a soft box that slides down a slope; one that falls on a triangle mesh; one that is
+/// pinned at one end, has node targets at the other, and carries a rigid box; two that are attached to each other.
 class SnapshotScene
 {
 public:
@@ -46,7 +46,7 @@ public:
         m_rigid.push_back(&addRigidBox(m_world, {0.5, 0.4, 0.3}, box));
     }
 
-    /// A slab with a box on one half, and a light one that comes down slowly on the other after some 4.2 s.
+    /// A slab with a box on one half, and a light box that settles slowly on the other after some 4.2 s.
     void addSlab()
     {
         m_world.addPlane();
@@ -116,7 +116,7 @@ public:
         for (btRigidBody* body : m_rigid) body->forceActivationState(activationState);
     }
 
-    /// All that can be seen of the present state, to the bit: nodes, rigid bodies, sleep, contacts, touches, anchors.
+    /// Bits of the whole visible state: nodes, rigid bodies, sleep, contacts, touches, anchors.
     void record(std::vector<double>& bits) const
     {
         const auto add = [&bits](const btVector3& v) {
@@ -156,7 +156,7 @@ public:
         return bits;
     }
 
-    /// The states after so many steps, one after another.
+    /// The states after each of `steps` steps.
     std::vector<double> run(int steps, btScalar h = kStep)
     {
         std::vector<double> bits;
@@ -175,7 +175,7 @@ public:
         return buffer;
     }
 
-    /// Bullet's part of a state, and ours.
+    /// Bullet's and this library's parts of a state.
     struct Saved
     {
         BulletState m_bullet;

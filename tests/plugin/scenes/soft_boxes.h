@@ -11,11 +11,11 @@
 namespace bullet_fem
 {
 
-/// A soft box, along the axes unless it is turned.
+/// A soft box, axis-aligned unless rotated.
 struct SoftBox
 {
     Vec3 m_size = {1, 1, 1};                  ///< [m]
-    std::array<int, 3> m_cells = {4, 4, 4};   ///< along every axis
+    std::array<int, 3> m_cells = {4, 4, 4};   ///< along each axis
     Vec3 m_center;                            ///< [m]
     btScalar m_youngModulus = btScalar(1e6);  ///< [Pa]
     btScalar m_density = 1000;                ///< [kg/m3]
@@ -23,23 +23,24 @@ struct SoftBox
     double m_turn = 0;                        ///< about the vertical through its centre [rad]
 };
 
-/// Makes one and gives it its material.
+/// Makes the body with its material.
 btSoftBody* makeSoftBox(btSoftBodyWorldInfo& info, btFemSoftBodySolver& fem, const SoftBox& box);
 btSoftBody* makeSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box);
 
-/// And adds it to the world.
+/// Makes the body and adds it to the world.
 btSoftBody& addSoftBox(SoftWorld& world, btFemSoftBodySolver& fem, const SoftBox& box);
 
-/// A cube of the unset material: edges of 1 m, cells of 0.25 m.
+/// A cube of the default material: edges of 1 m, cells of 0.25 m.
 btSoftBody& addUnitCube(SoftWorld& world, const btVector3& center);
 
-/// Likewise: edges of 0.4 m, cells of 0.1 m; its lower face at this height, its centre at y = 0 and this x [m].
+/// A cube of the default material: edges of 0.4 m, cells of 0.1 m; lower face at height `lowest`, centre at y = 0 and
+/// this x [m].
 btSoftBody& addSmallCube(SoftWorld& world, btScalar lowest, btScalar x = 0);
 
 /// Pins the nodes that are below a height [m].
 void clampBelow(btSoftBody& body, double height);
 
-/// Four static walls around the origin, 8 m high, whose inner sides are at these distances [m].
+/// Four static walls around the origin, 8 m high, with inner faces at these distances [m].
 void addWalls(SoftWorld& world, double halfX, double halfY);
 
 /// A rigid box with these edges [m].

@@ -147,7 +147,7 @@ void SoftWorld::put(btSoftBody& body, int group, int mask)
 
 void SoftWorld::take(btSoftBody& body)
 {
-    m_world->removeCollisionObject(&body);  // every class knows its soft bodies
+    m_world->removeCollisionObject(&body);  // each class of world finds its soft bodies
 }
 
 void SoftWorld::setSoftGravity(const btVector3& gravity)

@@ -17,10 +17,10 @@ class btDeformableGravityForce;
 namespace bullet_fem
 {
 
-constexpr btScalar kStep = btScalar(1) / 60;  ///< the usual time step [s]
+constexpr btScalar kStep = btScalar(1) / 60;  ///< default time step [s]
 constexpr double kGravity = 9.81;             ///< [m/s2], along -z
 
-/// How a rigid body starts.
+/// Initial state of a rigid body.
 struct RigidSettings
 {
     btScalar m_mass = 0;  ///< [kg]; 0 is static
@@ -30,7 +30,7 @@ struct RigidSettings
     btVector3 m_spin{0, 0, 0};      ///< [rad/s]
 };
 
-/// Every step is damped, free motion as well: what is to come to rest without damping of its own does so.
+/// Settings with implicit Euler in free motion, too, so that bodies without material damping settle.
 inline btFemSolverInfo implicitEuler()
 {
     btFemSolverInfo info;
@@ -38,14 +38,14 @@ inline btFemSolverInfo implicitEuler()
     return info;
 }
 
-/// How rigid bodies are solved.
+/// The coupling with the rigid solver.
 enum class Coupling
 {
-    swap,    ///< by Bullet's own solver: they feel the soft bodies after they have moved
-    coupled  ///< by a btFemConstraintSolver, together with the soft bodies
+    swap,    ///< staggered: Bullet's own solver runs first, reactions of the soft bodies act afterwards
+    coupled  ///< monolithic: a btFemConstraintSolver solves rigid and soft bodies together
 };
 
-/// For names of tests.
+/// The coupling's name in test names.
 inline const char* couplingName(Coupling coupling)
 {
     return coupling == Coupling::swap ? "swap" : "coupled";
@@ -59,7 +59,7 @@ enum class WorldClass
     deformable  ///< its soft body solver is a btDeformableBodySolver
 };
 
-/// For names of tests.
+/// The world's name in test names.
 inline const char* worldName(WorldClass worldClass)
 {
     return worldClass == WorldClass::softRigid       ? "softRigid"
@@ -67,12 +67,12 @@ inline const char* worldName(WorldClass worldClass)
                                                      : "deformable";
 }
 
-/// One of Bullet's worlds, a btSoftRigidDynamicsWorld unless said otherwise, that deletes its bodies, their shapes and
-/// motion states. Gravity is along -z, for rigid and soft bodies alike; nothing falls asleep.
+/// One of Bullet's worlds, a btSoftRigidDynamicsWorld by default, that owns its bodies, their shapes and motion states.
+/// Gravity is along -z, for rigid and soft bodies alike; bodies do not sleep.
 class SoftWorld
 {
 public:
-    /// The solver must outlive the world, and be of its class.
+    /// The solver must outlive the world, and match its class.
     explicit SoftWorld(btSoftBodySolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
     SoftWorld(WorldClass worldClass, btSoftBodySolver& solver, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
     SoftWorld(btFemSoftBodySolver& solver, Coupling coupling, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
@@ -80,10 +80,10 @@ public:
     SoftWorld(const SoftWorld&) = delete;
     SoftWorld& operator=(const SoftWorld&) = delete;
 
-    /// Adds a rigid body that takes over its shape.
+    /// Adds a rigid body and takes ownership of its shape.
     btRigidBody& addRigid(btCollisionShape* shape, const RigidSettings& settings = {});
 
-    /// Keeps a shape, such as a compound's child, until the world is gone.
+    /// Owns a shape, such as a compound's child, until the world is deleted.
     btCollisionShape* keep(btCollisionShape* shape);
 
     /// The plane z = height [m].
@@ -92,23 +92,23 @@ public:
     /// A static box of 100 x 100 x 2 m with its upper face at z = height [m].
     btRigidBody& addFloorBox(btScalar height = 0);
 
-    /// Takes the body over and adds it to the world.
+    /// Takes ownership of the body and adds it to the world.
     btSoftBody& addSoft(btSoftBody* body);
 
-    /// Adds a body that was taken out, or that somebody else will delete, to the world.
+    /// Adds a body owned by the caller, or one that was taken out before, to the world.
     void put(btSoftBody& body, int group = btBroadphaseProxy::DefaultFilter, int mask = btBroadphaseProxy::AllFilter);
-    void take(btSoftBody& body);  ///< out of the world, and does not delete it
+    void take(btSoftBody& body);  ///< removes the body without deleting it
 
     void deleteSoft(btSoftBody& body);
     void deleteRigid(btRigidBody& body);
 
-    /// Steps of exactly `h` [s], no sub-steps.
+    /// Makes steps of exactly `h` [s], without sub-steps.
     void step(int count = 1, btScalar h = kStep);
 
-    /// Of the soft bodies that are in the world and those to come [m/s2].
+    /// Sets gravity of all present and future soft bodies [m/s2].
     void setSoftGravity(const btVector3& gravity);
 
-    btDiscreteDynamicsWorld& bullet() { return *m_world; }  ///< of whatever class
+    btDiscreteDynamicsWorld& bullet() { return *m_world; }  ///< of any class
     btSoftRigidDynamicsWorld& world() { return dynamic_cast<btSoftRigidDynamicsWorld&>(*m_world); }
     btSoftBodyWorldInfo& info() { return *m_info; }
     btAlignedObjectArray<btSoftBody*>& softBodies() { return *m_inWorld; }
@@ -124,7 +124,7 @@ private:
     std::unique_ptr<btDeformableGravityForce> m_gravityForce;  // of a deformable world
     std::unique_ptr<btDiscreteDynamicsWorld> m_world;
     btSoftBodyWorldInfo* m_info = nullptr;                   // the world's
-    btAlignedObjectArray<btSoftBody*>* m_inWorld = nullptr;  // likewise
+    btAlignedObjectArray<btSoftBody*>* m_inWorld = nullptr;  // the world's
     const WorldClass m_class;
     std::vector<std::unique_ptr<btCollisionShape>> m_shapes;
     std::vector<btSoftBody*> m_soft;
@@ -132,7 +132,7 @@ private:
     std::unique_ptr<btFemConstraintSolver> m_coupledSolver;  // in place of m_rigidSolver; null if not coupled
 };
 
-/// A FEM solver for a class of worlds.
+/// The FEM solver for a class of worlds.
 class FemSolverOf
 {
 protected:
@@ -143,13 +143,13 @@ protected:
     btFemSoftBodySolver* m_fem;
 };
 
-/// A world of any class with its FEM solver, and nothing else, so that what is shown for one can be shown for all. In a
-/// deformable world gravity is Bullet's btDeformableGravityForce on all soft bodies.
+/// A world of any class with its FEM solver, for tests over all classes. In a deformable world gravity is Bullet's
+/// btDeformableGravityForce on all soft bodies.
 class FemWorld : private FemSolverOf, public SoftWorld
 {
 public:
     explicit FemWorld(WorldClass worldClass, const btVector3& gravity = {0, 0, btScalar(-kGravity)});
-    /// `coupled` is for softRigid.
+    /// `coupled` requires softRigid.
     FemWorld(WorldClass worldClass, Coupling coupling, const btVector3& gravity = {0, 0, btScalar(-kGravity)},
              const btFemSolverInfo& info = btFemSolverInfo());
     FemWorld(WorldClass worldClass, const btFemSolverInfo& info,
@@ -159,7 +159,7 @@ public:
     const btFemSoftBodySolver& fem() const { return *m_fem; }
 };
 
-/// A placement without rotation.
+/// A transform without rotation.
 btTransform at(btScalar x, btScalar y, btScalar z);
 
 }  // namespace bullet_fem

@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// A mesh as btSoftBodyHelpers::CreateFromTetGenData takes it: counted from 0, with all digits.
+/// A mesh in the format of btSoftBodyHelpers::CreateFromTetGenData: indices from 0, all digits.
 struct TetGenText
 {
     explicit TetGenText(const TetMesh& mesh)

@@ -14,7 +14,7 @@
 namespace bullet_fem
 {
 
-/// A world with the swap alone or with the coupled solver, as a rule without gravity.
+/// A world in staggered or in monolithic coupling, without gravity by default.
 struct FastScene
 {
     explicit FastScene(Coupling coupling, double gravity = 0)
@@ -22,7 +22,7 @@ struct FastScene
     {
     }
 
-    /// Of water's density; E [Pa].
+    /// Adds a soft body of water's density and this E [Pa].
     btSoftBody& addSoft(const TetMesh& mesh, double youngModulus = 1e6)
     {
         btSoftBody* body = btFemHelpers::createFromTetMesh(m_world.info(), mesh);
@@ -36,7 +36,7 @@ struct FastScene
     SoftWorld m_world;
 };
 
-/// 40 x 40 x 5 cm below z = 0, with cells of 5 cm, or of 2.5 cm.
+/// A slab of 40 x 40 x 5 cm below z = 0, with cells of 5 cm, or of 2.5 cm.
 inline TetMesh slab(int cellsThick)
 {
     return makeBox({0.4, 0.4, 0.05}, {8 * cellsThick, 8 * cellsThick, cellsThick}, {-0.2, -0.2, -0.05});
@@ -52,13 +52,13 @@ inline void clampRim(btSoftBody& body)
     }
 }
 
-/// Twice the area of the origin and two points [m2].
+/// Twice the horizontal area of the triangle of the origin and two points [m2].
 inline double areaSeenFromAbove(const btVector3& a, const btVector3& b)
 {
     return double(a.x()) * b.y() - double(a.y()) * b.x();
 }
 
-/// How often the surface lies straight above a point: 0 over a slab, 1 in it, 2 below.
+/// Number of faces above a point: 0 above a slab, 1 inside, 2 below.
 inline int facesAbove(const btSoftBody& body, const btVector3& p)
 {
     int count = 0;
@@ -80,11 +80,11 @@ inline int facesAbove(const btSoftBody& body, const btVector3& p)
 struct Projectile
 {
     std::string m_name;
-    double m_radius, m_halfLength;  ///< of a sphere both its radius [m]
+    double m_radius, m_halfLength;  ///< a sphere's radius in both [m]
     double m_mass, m_speed;         ///< [kg], [m/s]
 };
 
-/// A new one.
+/// Makes the shape; the caller owns it.
 inline btCollisionShape* shapeOf(const Projectile& projectile)
 {
     const btScalar r(projectile.m_radius);
@@ -92,7 +92,7 @@ inline btCollisionShape* shapeOf(const Projectile& projectile)
     return new btCylinderShapeZ(btVector3(r, r, btScalar(projectile.m_halfLength)));
 }
 
-/// A projectile with its tip `height` above z = 0, on its way down.
+/// Adds a projectile moving downwards, with its tip `height` above z = 0.
 inline btRigidBody& shoot(FastScene& scene, const Projectile& projectile, double x, double height)
 {
     RigidSettings settings;

@@ -19,10 +19,10 @@ namespace
 {
 
 constexpr btScalar kTop = btScalar(0.2);   // height of a board [m]
-constexpr btScalar kHalf = btScalar(0.1);  // of that
-constexpr int kCells = 4;                  // of a mesh or heightfield, along each side
+constexpr btScalar kHalf = btScalar(0.1);  // half of it
+constexpr int kCells = 4;                  // along each side of a mesh or heightfield
 
-// A cube that sleeps on a board, which lies on the ground; what the board becomes does not move its middle.
+// A cube asleep on a board on the ground; changes of the board do not move its centre.
 class SleepingOnBoard : public SleepingScene
 {
 protected:
@@ -42,13 +42,13 @@ public:
         return m_world.keep(new btBoxShape(btVector3(btScalar(0.5), btScalar(0.5), halfHeight)));
     }
 
-    // Of the box's bounds.
+    // A cylinder with the box's bounds.
     btCollisionShape* cylinder()
     {
         return m_world.keep(new btCylinderShapeZ(btVector3(btScalar(0.5), btScalar(0.5), kHalf)));
     }
 
-    // With one box below the cube, and one 5 m aside.
+    // A compound of one box below the cube, and one 5 m beside it.
     btCollisionShape* compound(bool tree)
     {
         auto* shape = new btCompoundShape(tree);
@@ -102,7 +102,7 @@ public:
         for (btVector3& corner : m_corners) corner.setZ(kHalf - btScalar(0.05));
     }
 
-    // The same, between heights of 0 and kTop.
+    // A heightfield of that size and place, with heights between 0 and kTop.
     btCollisionShape* heightfield()
     {
         constexpr int kPoints = kCells + 1;
@@ -117,16 +117,16 @@ public:
     std::vector<btVector3> m_corners;
     std::vector<int> m_triangles;
     std::unique_ptr<btTriangleIndexVertexArray> m_arrays;
-    std::vector<btScalar> m_heights;  // Bullet reads scalars where it says PHY_FLOAT
+    std::vector<btScalar> m_heights;  // Bullet reads btScalar for PHY_FLOAT
 };
 
-// What a program may do to the board.
+// A change of the board by the program.
 struct Change
 {
     const char* m_name;
     std::function<btCollisionShape*(SleepingOnBoard&)> m_shape;
     std::function<void(SleepingOnBoard&)> m_do;
-    btScalar m_top = kTop;  // where the cube lies then [m]
+    btScalar m_top = kTop;  // final height of the cube's lower face [m]
 };
 
 void PrintTo(const Change& change, std::ostream* stream)
@@ -151,7 +151,7 @@ TEST_P(SleepingOnChanged, WakesAndRestsOnTheChangedShape)
     change.m_do(*this);
     m_world.step();
     EXPECT_TRUE(m_cube->isActive());
-    EXPECT_GT(m_fem.stepReport(m_cube).m_freeMotionMs, 0);  // 0 of one that was asleep in the step
+    EXPECT_GT(m_fem.stepReport(m_cube).m_freeMotionMs, 0);  // 0 for a body asleep in the step
     m_world.step(kFiveSeconds - 1);
     EXPECT_NEAR(lowestHeight(*m_cube), change.m_top, 1e-3);
     EXPECT_FALSE(m_cube->isActive());
@@ -192,7 +192,7 @@ const Change kChanges[] = {
     {"Corners", [](SleepingOnBoard& s) { return s.hull(); },
      [](SleepingOnBoard& s)
      {
-         // Within the bounds of the others.
+         // The new point is within the hull of the others.
          static_cast<btConvexHullShape*>(s.m_board->getCollisionShape())
              ->addPoint(btVector3(btScalar(0.2), btScalar(0.1), btScalar(0.06)));
      }},

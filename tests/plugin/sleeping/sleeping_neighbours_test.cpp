@@ -28,7 +28,7 @@ TEST_P(Sleeping, FallingRigidBodyWakesIt)
     }
     EXPECT_TRUE(woke);
     EXPECT_GT(sphere.getCenterOfMassPosition().z(), 0.3);
-    // The ground holds it in the very step in which it wakes: it would fall g h^2 = 2.7 mm.
+    // The ground supports it in the step in which it wakes: otherwise it would fall by g h^2 = 2.7 mm.
     EXPECT_GT(lowest, -1e-3 * 0.4);
 }
 
@@ -57,7 +57,7 @@ TEST_P(Sleeping, APusherWakesItAndMovesIt)
         m_world.step();
     }
     EXPECT_TRUE(cube.isActive());
-    // It ends at x = 0; the cube's face was at -0.2, and its back is ahead of it by its squeezed length.
+    // The pusher ends at x = 0; the cube's face was at -0.2, and its back is ahead by its compressed length.
     EXPECT_GT(cube.m_nodes[cube.m_nodes.size() - 1].m_x.x(), 0.3);
 }
 
@@ -98,7 +98,7 @@ TEST_P(Sleeping, ObjectAtRestKeptAwakeByTheUserDoesNotWakeIt)
     EXPECT_FALSE(cube.isActive());
 }
 
-// A body with a sphere that hangs 0.9 m below it by an anchor: Bullet has them in two islands.
+// A body with a sphere anchored 0.9 m below it: Bullet puts them in two islands.
 class SleepingHanging : public SleepingScene, public testing::Test
 {
 protected:
@@ -158,7 +158,7 @@ protected:
     }
 };
 
-// Steps until the removal, counted from the one after which it is about to sleep.
+// Steps until the removal, counted from the step before which it would fall asleep.
 TEST_P(SleepingSupport, LetsTheBodyFallWhenRemoved)
 {
     btRigidBody& board = addBoard(0);
@@ -179,7 +179,7 @@ TEST_F(SleepingSupport, LetsTheBodyFallWhenAMovableOneIsRemoved)
     btRigidBody& board = addBoard(100);
     btSoftBody& cube = addCube(0, btScalar(0.21));
     m_world.step(60);
-    // Put to sleep by hand: without the coupled solver what rests on a movable body reads a velocity of g h.
+    // Put to sleep explicitly: without the coupled solver a body at rest on a movable one has a velocity of g h.
     board.forceActivationState(ISLAND_SLEEPING);
     cube.forceActivationState(ISLAND_SLEEPING);
     m_world.step(60);

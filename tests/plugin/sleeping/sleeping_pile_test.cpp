@@ -20,7 +20,7 @@ namespace
 constexpr btScalar kSpacing = btScalar(0.22);  // of balls of .2 m [m]
 constexpr int kColumns = 3, kLayers = 4;
 
-// Soft balls that fall into a pit of a width of three of them, from places a little aside of each other's middle [m].
+// Soft balls that fall into a pit three balls wide, with small horizontal offsets [m].
 class Pile
 {
 public:
@@ -31,7 +31,7 @@ public:
         addWalls(m_world, half, half);
     }
 
-    // `rigid`: every fifth ball is.
+    // rigid: every fifth ball is rigid.
     void fill(bool rigid)
     {
         for (int k = 0; k < kColumns * kColumns * kLayers; ++k)
@@ -57,12 +57,12 @@ public:
 
     struct Rest  // means over a second
     {
-        double m_fastest = 0;  // node of all [m/s]
+        double m_fastest = 0;  // maximum node speed [m/s]
         double m_sweeps = 0;
-        double m_idle = 0;  // contacts that carry nothing, for each that does
+        double m_idle = 0;  // contacts without impulse, per contact with one
     };
 
-    // Of a pile that may not sleep.
+    // Means for a pile that may not sleep.
     Rest atRest()
     {
         for (btSoftBody* ball : m_balls) ball->forceActivationState(DISABLE_DEACTIVATION);
@@ -127,7 +127,7 @@ private:
     std::vector<btSoftBody*> m_balls;
 };
 
-// Of some piles, because their course follows rounding, and one of many stays restless for long.
+// The median of some piles, because their motion depends on rounding, and one of many stays restless for long.
 Pile::Rest medianRest(bool rigid)
 {
     std::vector<double> fastest, sweeps, idle;
@@ -148,7 +148,7 @@ Pile::Rest medianRest(bool rigid)
     return {median(fastest), median(sweeps), median(idle)};
 }
 
-// Though now and then a node slips off another ball, and is faster than the threshold for a step.
+// Although a node occasionally slips off another ball, and exceeds the threshold for a step.
 TEST(SleepingPile, SleepsWithinTenSeconds)
 {
     Pile pile;
@@ -157,19 +157,19 @@ TEST(SleepingPile, SleepsWithinTenSeconds)
     EXPECT_EQ(pile.asleep(), pile.size());
 }
 
-// What carries something stays a contact: were it lost and found again from step to step, a node somewhere would move
-// at .02 m/s. Nor is the pile searched as if it sprang apart in free motion: for each point that carries something, 1.8
-// would be found that do not.
+// Contacts with impulses persist: losing and finding them alternately would move some node at .02 m/s. The search does
+// not use the expansion of the pile in free motion: with it, it would find 1.8 contacts without impulse for each one
+// with impulse.
 TEST(SleepingPile, IsStillThoughItMayNotSleep)
 {
     const Pile::Rest rest = medianRest(false);
-    EXPECT_LT(rest.m_fastest, 0.004);  // .0008 to .002, as rounding has it
+    EXPECT_LT(rest.m_fastest, 0.004);  // .0008 to .002, depending on rounding
     EXPECT_LT(rest.m_idle, 1.4);
 }
 
-// Nor does the point where a triangle touches a rigid ball jump to and fro while the triangle tilts: a node somewhere
-// would move at .02 m/s. What holds rigid balls is known before the first sweep; else there would be several times as
-// many.
+// The contact point of a triangle and a rigid ball does not jump while the triangle tilts: otherwise some node would
+// move at .02 m/s. Contacts of rigid balls have warm starts before the first sweep; otherwise there would be several
+// times as many sweeps.
 TEST(SleepingPile, IsStillWithRigidBallsInIt)
 {
     const Pile::Rest rest = medianRest(true);

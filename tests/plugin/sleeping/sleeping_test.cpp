@@ -64,7 +64,7 @@ TEST_P(Sleeping, WokenBodyStaysInPlace)
     EXPECT_FALSE(cube.isActive());
 }
 
-// What the user may do to a body at rest.
+// A write by the user to a body at rest.
 struct Write
 {
     const char* m_name;
@@ -90,12 +90,12 @@ TEST_P(SleepingWritten, WakesInTheNextStep)
     value().m_do(m_fem, cube);
     m_world.step();
     EXPECT_TRUE(cube.isActive());
-    EXPECT_GT(m_fem.stepReport(&cube).m_freeMotionMs, 0);  // 0 of one that was asleep in the step
+    EXPECT_GT(m_fem.stepReport(&cube).m_freeMotionMs, 0);  // 0 for a body asleep in the step
     m_world.step(60);
     EXPECT_TRUE(cube.isActive());
 }
 
-// In the last step before it falls asleep, too.
+// Also in the last step before it falls asleep.
 TEST_P(SleepingWritten, StaysAwakeWhenAboutToSleep)
 {
     addGround();
@@ -125,7 +125,7 @@ const Write kWrites[] = {
      {
          btFemMaterial softer;
          softer.m_youngModulus = 2e5;
-         softer.m_density = 0;  // keeps the masses
+         softer.m_density = 0;  // masses are kept
          f.setMaterial(&b, softer);
      }},
     {"Wind", [](btFemSoftBodySolver&, btSoftBody& b) { b.setWindVelocity(btVector3(10, 0, 0)); }},
@@ -147,7 +147,7 @@ const Write kWrites[] = {
 INSTANTIATE_TEST_SUITE_P(Writes, SleepingWritten, testing::Combine(eachWorld(), testing::ValuesIn(kWrites)),
                          nameOfWorldWith([](const Write& write) { return write.m_name; }));
 
-// Where nothing is wrong with a write, it is taken back; and so is the sleep.
+// A bad write is reverted, and the body does not fall asleep.
 TEST_P(Sleeping, ABadWriteIsRestoredAndNotSleptOver)
 {
     addGround();
@@ -282,7 +282,7 @@ TEST_P(Sleeping, TheThresholdIsTheBodys)
     EXPECT_TRUE(cube.isActive());
 }
 
-// A node that is faster than the threshold for a step, as one is that slips off an edge. The step damps most of it.
+// Sets one node's speed above the threshold for a step, as of one that slips off an edge. The step damps most of it.
 void twitch(btSoftBody& body)
 {
     btSoftBody::Node* highest = &body.m_nodes[0];
@@ -326,7 +326,7 @@ TEST_P(Sleeping, RepeatedlyTwitchingBodyStaysAwake)
     {
         if (k % 4 == 0) twitch(cube);
         m_world.step(1);
-        ASSERT_EQ(cube.getActivationState(), ACTIVE_TAG) << "step " << k;  // does not even want to
+        ASSERT_EQ(cube.getActivationState(), ACTIVE_TAG) << "step " << k;  // nor does it want to sleep
     }
 }
 

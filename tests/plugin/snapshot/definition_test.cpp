@@ -24,7 +24,7 @@ int indexOf(const btSoftBody& body, const btSoftBody::Node* node)
     return static_cast<int>(node - &body.m_nodes[0]);
 }
 
-/// What other means bring back of a body: positions, velocities, elements, faces and m_cfg.
+/// A copy by other means: positions, velocities, elements, faces and m_cfg.
 btSoftBody* copyOf(const btSoftBody& body, btSoftBodyWorldInfo& info)
 {
     std::vector<btVector3> positions;
@@ -45,7 +45,7 @@ btSoftBody* copyOf(const btSoftBody& body, btSoftBodyWorldInfo& info)
     return copy;
 }
 
-/// A beam that hangs from one end, bent by its weight, at rest.
+/// A beam at rest, fixed at one end and bent by its weight.
 class Definition : public EachWorld
 {
 protected:
@@ -68,7 +68,7 @@ protected:
 
     static double tip(const btSoftBody& body) { return double(body.m_nodes[body.m_nodes.size() - 1].m_x.z()); }
 
-    /// Expects that it is refused with this reason, and that the body is what it was.
+    /// Expects that the definition is refused with this reason, and that the body is unchanged.
     void expectRefused(btSoftBody& body, const Bytes& bytes, const std::string& reason)
     {
         Bytes before, after;
@@ -99,11 +99,11 @@ TEST_P(Definition, KeepsTheRestShapeMaterialMassesAndPinsOfABentBody)
     other.m_fem.applyDefinition(&copy, m_saved.data(), m_saved.size());
     for (int i = 0; i < copy.m_nodes.size(); ++i) EXPECT_EQ(copy.m_nodes[i].m_im, m_beam->m_nodes[i].m_im);
     other.m_world.step(120);
-    // It hangs as it did; what is left is the motion of a beam that has all but come to rest.
+    // It keeps its shape; the remaining motion is that of a beam nearly at rest.
     EXPECT_NEAR(tip(copy), tip(*m_beam), 0.01 * sag);
     EXPECT_EQ(other.m_fem.stepReport(&copy).m_detail, btFemDetail::globalWarp);
 
-    // Without it the bent shape is the rest shape, and it sags as much again.
+    // Without it the bent shape is the rest shape, and the beam sags further by an equal amount.
     btSoftBody& lost = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
     for (int i = 0; i < lost.m_nodes.size(); ++i) lost.m_nodes[i].m_im = m_beam->m_nodes[i].m_im;
     btFemMaterial material;
@@ -135,7 +135,7 @@ TEST_P(Definition, IsForgottenIfCutBeforeTheFirstStep)
     SnapshotScene other{Coupling::swap, {}, GetParam()};
     btSoftBody& copy = other.m_world.addSoft(copyOf(*m_beam, other.m_world.info()));
     other.m_fem.applyDefinition(&copy, m_saved.data(), m_saved.size());
-    std::vector<int> corners;  // Bullet's appendNode moves the nodes away from under them
+    std::vector<int> corners;  // Bullet's appendNode reallocates the nodes
     for (int e = 0; e < copy.m_tetras.size(); ++e)
         for (const btSoftBody::Node* node : copy.m_tetras[e].m_n) corners.push_back(indexOf(copy, node));
     copy.appendNode(copy.m_nodes[0].m_x + btVector3(btScalar(-0.2), 0, 0), 1);
@@ -146,7 +146,7 @@ TEST_P(Definition, IsForgottenIfCutBeforeTheFirstStep)
     other.m_fem.saveDefinition(&copy, ofCut);
     EXPECT_GT(ofCut.size(), m_saved.size());
     other.m_world.step();
-    if (GetParam() != WorldClass::deformable)  // where it is set up before the step, which reports nothing of it
+    if (GetParam() != WorldClass::deformable)  // a deformable world sets it up before the step, without a report
         EXPECT_TRUE(other.m_fem.stepReport(&copy).m_flags & BT_FEM_CHANGED_MESH);
     EXPECT_TRUE(allFinite(copy));
     ASSERT_TRUE(other.m_fem.isFem(&copy));

@@ -14,7 +14,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Memory of all sizes, of which every other piece is given back: what is allocated next lies anywhere.
+/// Allocates blocks of all sizes and frees every other one, so that later allocations have arbitrary addresses.
 class Junk
 {
 public:
@@ -71,7 +71,7 @@ TEST_P(Determinism, HoldsAfterOtherBodiesCameAndWent)
     for (int k = 0; k < 3; ++k)
         guests.push_back(
             &addSoftBox(scene.m_world, scene.m_fem, {{1, 1, 0.5}, {3, 3, 2}, {0.1 * k, 0, 0.3 + 0.6 * k}}));
-    // Copies of the scene's bodies, but for the last digits that their places cost them.
+    // Copies of the scene's bodies at other places, which differ in rounding.
     guests.push_back(&addSoftBox(scene.m_world, scene.m_fem, {{1, 1, 0.5}, {4, 4, 2}, {17.3, -5.7, 1}}));
     guests.push_back(&addSoftBox(scene.m_world, scene.m_fem, {{1.6, 0.4, 0.4}, {8, 2, 2}, {33.3, 1.7, 1}}));
     btRigidBody& stone = addRigidBox(scene.m_world, {0.3, 0.3, 0.3}, {10, at(0, 0, btScalar(2.2))});
@@ -79,7 +79,7 @@ TEST_P(Determinism, HoldsAfterOtherBodiesCameAndWent)
     for (btSoftBody* guest : {guests[1], guests[4], guests[0], guests[3], guests[2]}) scene.m_world.deleteSoft(*guest);
     scene.m_world.deleteRigid(stone);
     scene.m_world.deleteRigid(ground);
-    scene.m_world.step();  // what is prepared before it would share the factors of the copies
+    scene.m_world.step();  // preparing before a step would share the copies' factors
     scene.build();
     EXPECT_TRUE(scene.run(m_steps) == bits);
 }

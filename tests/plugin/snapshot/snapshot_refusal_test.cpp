@@ -22,7 +22,7 @@ namespace
 using testing::HasSubstr;
 using Bytes = std::vector<unsigned char>;
 
-/// A small scene with everything that is saved, in the midst of contact.
+/// A small scene with all kinds of saved data, with active contacts.
 class RefusedSnapshot : public testing::Test
 {
 protected:
@@ -36,7 +36,7 @@ protected:
         m_good = m_scene.save();
     }
 
-    /// Restores, expects that it is refused with a reason that has this in it, and that nothing has changed.
+    /// Expects that restoring is refused with this text in the reason, and that nothing has changed.
     void expectRefused(const Bytes& bytes, const std::string& reason)
     {
         const Bytes before = m_scene.save();
@@ -54,7 +54,7 @@ protected:
         return bytes;
     }
 
-    /// Any change of any bytes, with a checksum that fits.
+    /// Random changes of bytes, with a matching checksum.
     Bytes mutated(std::mt19937& random) const
     {
         constexpr std::size_t kHeader = 40;
@@ -157,7 +157,7 @@ TEST_F(RefusedSnapshot, MutationsAreRejectedOrTakenWithoutACrash)
             ASSERT_FALSE(why.empty());
             continue;
         }
-        // What may be a state is one, however odd: no number that is not finite may come of it.
+        // Accepted data are a valid state, however unusual: steps from it must stay finite.
         if (++taken % 8 != 0) continue;
         m_scene.m_world.step(2);
         ASSERT_TRUE(allFiniteNow()) << "mutation " << k;
@@ -169,7 +169,7 @@ TEST_F(RefusedSnapshot, MutationsAreRejectedOrTakenWithoutACrash)
     EXPECT_TRUE(m_scene.run(10) == bits);
 }
 
-// A feature is an index: the next step reads at it.
+// A feature is an index that the next step uses.
 TEST_F(RefusedSnapshot, ContactsOfInvalidFeaturesAreRejected)
 {
     FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
@@ -239,7 +239,7 @@ TEST_F(RefusedSnapshot, OtherMaterialIsRejected)
     expectRefused(m_good, "material");
     m_scene.m_world.step(2);
     expectRefused(m_good, "material");
-    material.m_stiffnessDamping = btFemMaterial().m_stiffnessDamping;  // as it was
+    material.m_stiffnessDamping = btFemMaterial().m_stiffnessDamping;  // the former value
     material.m_meanDilatation = btFemMeanDilatation::on;
     m_scene.m_fem.setMaterial(m_scene.m_soft[0], material);
     m_scene.m_world.step(2);
@@ -250,7 +250,7 @@ TEST_F(RefusedSnapshot, OtherMaterialIsRejected)
     EXPECT_TRUE(m_scene.save() == m_good);
 }
 
-/// What a tick callback is told when it saves or restores.
+/// Result of saving or restoring in a tick callback.
 struct TriesWithinAStep
 {
     static void tick(btDynamicsWorld* world, btScalar)
@@ -319,7 +319,7 @@ TEST(RestoredSnapshot, ShowsTheSavedManifolds)
     const Bytes bytes = scene.save();
     const int points = pointsShown();
     ASSERT_GT(points, 4);
-    scene.m_soft[1]->translate(btVector3(0, 0, btScalar(0.05)));  // the pair's bounds go on to overlap
+    scene.m_soft[1]->translate(btVector3(0, 0, btScalar(0.05)));  // the pair's bounds still overlap
     scene.m_world.step();
     ASSERT_LT(pointsShown(), points);
     scene.m_fem.restoreState(bytes.data(), bytes.size());

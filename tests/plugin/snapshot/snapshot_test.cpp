@@ -55,7 +55,7 @@ TEST_P(Snapshot, ContinuesBitForBitInTheMidstOfContact)
     expectToContinueInTheMidstOfContact(m_scene, kLong);
 }
 
-// What an impact has to give back is given in the run that goes on from the saved state, too.
+// The pending restitution of an impact is part of the saved state.
 TEST_P(Snapshot, PendingRestitutionContinuesBitForBit)
 {
     m_scene.addTower();
@@ -92,7 +92,7 @@ TEST_P(Snapshot, BodiesFallingAsleepOrSleepingContinueBitForBit)
 {
     m_scene.addSlab();
     m_scene.setState(ACTIVE_TAG);
-    m_scene.m_rigid.back()->forceActivationState(DISABLE_DEACTIVATION);  // slow enough to sleep on its way
+    m_scene.m_rigid.back()->forceActivationState(DISABLE_DEACTIVATION);  // slow enough to fall asleep on its way
     m_scene.m_world.step(90);
     const SnapshotScene::Saved falling = m_scene.saveAll();
     std::vector<double> bits = m_scene.run(140);
@@ -109,14 +109,14 @@ TEST_P(Snapshot, BodiesFallingAsleepOrSleepingContinueBitForBit)
     EXPECT_TRUE(m_scene.save() == sleeping.m_fem);
     EXPECT_TRUE(m_scene.run(kLong) == after);
     m_scene.restore(sleeping);
-    m_scene.m_world.info().m_gravity *= 2;  // what it slept under is saved, too: it wakes
+    m_scene.m_world.info().m_gravity *= 2;  // gravity during sleep is saved, too: the body wakes
     m_scene.m_world.step();
     EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
     m_scene.m_world.info().m_gravity /= 2;
     m_scene.restore(sleeping);
     m_scene.m_world.step();
     EXPECT_EQ(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
-    m_scene.m_rigid.front()->setFriction(btScalar(0.1));  // and what it felt of its neighbours
+    m_scene.m_rigid.front()->setFriction(btScalar(0.1));  // and so is its neighbours' friction
     m_scene.restore(sleeping);
     m_scene.m_world.step();
     EXPECT_NE(m_scene.m_soft[0]->getActivationState(), ISLAND_SLEEPING);
@@ -126,7 +126,7 @@ TEST_P(Snapshot, IncludesBodiesAddedAsleep)
 {
     m_scene.addTower();
     btSoftBody& asleep = *m_scene.m_soft[0];
-    asleep.translate({50, 0, 0});  // nobody wakes it there
+    asleep.translate({50, 0, 0});  // nothing wakes it there
     asleep.setVelocity({0, 0, 1});
     asleep.forceActivationState(ISLAND_SLEEPING);
     m_scene.m_world.step();
@@ -146,7 +146,7 @@ TEST_P(Snapshot, UndoesTheUsersChanges)
     m_scene.m_world.step(40);
     btSoftBody& beam = *m_scene.m_soft[3];
     btSoftBody &first = *m_scene.m_soft[5], &second = *m_scene.m_soft[6];
-    beam.m_nodes[3].m_v += btVector3(0, 0, btScalar(0.1));  // not yet seen by a step
+    beam.m_nodes[3].m_v += btVector3(0, 0, btScalar(0.1));  // before a step detects it
     beam.m_nodes[4].m_f = btVector3(1, 2, 3);
     const SnapshotScene::Saved saved = m_scene.saveAll();
     const std::vector<double> bits = m_scene.run(30);
@@ -165,14 +165,14 @@ TEST_P(Snapshot, UndoesTheUsersChanges)
 
 TEST_P(Snapshot, RecreatesItsFactor)
 {
-    const btScalar shorter = kStep / btScalar(1.3);  // stale, but not so much that contact makes a new one
+    const btScalar shorter = kStep / btScalar(1.3);  // stale, but not so much that contact refactors
     m_scene.addTower();
     m_scene.m_world.step(30);
     m_scene.m_world.step(2, shorter);
     const SnapshotScene::Saved saved = m_scene.saveAll();
     const std::vector<double> bits = m_scene.run(60, shorter);
     ASSERT_NE(m_scene.m_fem.stepReport(m_scene.m_soft[0]).m_flags & BT_FEM_STALE_FACTOR, 0);
-    for (const btScalar h : {shorter, shorter / 2, shorter / 3})  // the first factor is forgotten
+    for (const btScalar h : {shorter, shorter / 2, shorter / 3})  // the first factor is evicted
         for (btSoftBody* body : m_scene.m_soft)
         {
             m_scene.m_world.step(1, h);
@@ -202,7 +202,7 @@ TEST_P(Snapshot, BodyHeldByASpringContinuesBitForBit)
     EXPECT_TRUE(m_scene.run(40) == bits);
     m_scene.m_fem.removeSpring(body, handle);
     m_scene.restore(saved);
-    EXPECT_TRUE(m_scene.state() == state) << "let go since";
+    EXPECT_TRUE(m_scene.state() == state) << "released since";
     EXPECT_FALSE(m_scene.run(40) == bits);
 }
 
@@ -251,7 +251,7 @@ TEST_P(Snapshot, ImpactContinuesBitForBit)
     {
         const SnapshotScene::Saved saved = m_scene.saveAll();
         const std::vector<double> bits = m_scene.run(10);
-        m_scene.m_rigid[0]->setCenterOfMassTransform(at(0, 0, 5));  // what is remembered of it is forgotten
+        m_scene.m_rigid[0]->setCenterOfMassTransform(at(0, 0, 5));  // its stored contacts are dropped
         m_scene.m_world.step(2);
         m_scene.restore(saved);
         EXPECT_TRUE(m_scene.run(10) == bits) << "step " << k;
@@ -266,11 +266,11 @@ TEST_P(Snapshot, LevelsOfDetailContinueBitForBit)
 {
     btFemViewerInterest viewer(5, 50);
     m_scene.m_fem.setInterest(&viewer);
-    btSoftBody& box = m_scene.add({{1, 0.5, 0.5}, {4, 2, 2}, {0, 0, 0}});  // falls and turns
+    btSoftBody& box = m_scene.add({{1, 0.5, 0.5}, {4, 2, 2}, {0, 0, 0}});  // falls and rotates
     for (int i = 0; i < box.m_nodes.size(); ++i) box.m_nodes[i].m_v = btVector3(1, 2, 3).cross(box.m_nodes[i].m_x);
     m_scene.m_world.step(10);
     viewer.setViewer({1000, 0, 0});
-    m_scene.m_world.step(15);  // half of the time that it stays in its level
+    m_scene.m_world.step(15);  // half of its dwell time
     for (int k = 0; k < 2; ++k)
     {
         const SnapshotScene::Saved saved = m_scene.saveAll();
@@ -310,8 +310,8 @@ TEST_P(Snapshot, CopiesContinueBitForBitWithForgottenFactors)
     }
 }
 
-// Where rigid bodies touch each other, Bullet's contacts remember impulses, and cannot be put back. Let go of on both
-// sides, as BulletState does, they begin anew on both. With SOLVER_RANDMIZE_ORDER the rigid solver draws numbers, too.
+// In contacts between rigid bodies Bullet stores warm starts, which cannot be restored. BulletState clears them in both
+// runs, so that both continue without. With SOLVER_RANDMIZE_ORDER the rigid solver uses random numbers, too.
 TEST_P(Snapshot, RigidContactsContinueBitForBitOnceCleared)
 {
     m_scene.addTower();

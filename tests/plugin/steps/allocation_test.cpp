@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-// A program of its own: the counter replaces malloc.
+//
+// Steps of a world allocate nothing. A separate program: the counter replaces malloc.
 #include <gtest/gtest.h>
 
 #include "BulletSoftBody/btSoftBodyHelpers.h"
@@ -19,7 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Counts what is allocated inside the solver's virtuals; Bullet's own allocations around them are not ours.
+/// Counts allocations inside the solver's virtual functions; Bullet's own allocations around them are excluded.
 class CountingSolver : public btFemSoftBodySolver
 {
 public:
@@ -65,8 +66,8 @@ public:
     long m_allocations = 0;
 };
 
-// Steps without growth of the contact count must not allocate; the first two may. Returns the steps that were looked
-// at.
+// Steps without growth of the number of contacts must not allocate; the first two may. Returns the number of checked
+// steps.
 template <class World>
 int expectNoAllocations(CountingSolver& fem, World& world, const std::vector<btSoftBody*>& bodies, int steps)
 {
@@ -96,7 +97,7 @@ TEST(Allocations, OccurInTheFirstStep)
     SoftWorld world(fem);
     addUnitCube(world, btVector3(0, 0, 0));
     world.step();
-    EXPECT_GT(fem.m_allocations, 100);  // the counter counts
+    EXPECT_GT(fem.m_allocations, 100);  // checks that allocations are counted
 }
 
 TEST(Allocations, AreNoneForABodyInFlight)
@@ -108,7 +109,7 @@ TEST(Allocations, AreNoneForABodyInFlight)
     EXPECT_EQ(expectNoAllocations(fem, world, {&cube}, 60), 58);
 }
 
-// It hangs by one face, with tension that is close to what it bears.
+// The bar hangs from one face, with a tension near its strength.
 TEST(Allocations, AreNoneForAnUnsplitBody)
 {
     CountingSolver fem;
@@ -140,8 +141,8 @@ TEST(Allocations, AreNoneForASpringDraggedBody)
     EXPECT_GT(cube.m_rcontacts.size(), 0);
 }
 
-// Their contacts are thinned: what is found may grow although what is kept does not, so the bodies move first as they
-// do then.
+// Their contacts are thinned: the number found may grow although the number kept does not, so the bodies make the
+// motion beforehand.
 TEST(Allocations, AreNoneForCollidingRenderSurfaces)
 {
     CountingSolver fem;
@@ -158,7 +159,7 @@ TEST(Allocations, AreNoneForCollidingRenderSurfaces)
     EXPECT_GT(fem.contacts(&ball).size(), 0);
 }
 
-// What its nodes and faces touch goes to and fro. Bullet itself allocates for cloth, in every step the same.
+// The contacts of its nodes and faces vary. Bullet itself allocates for cloth, equally in each step.
 TEST(Allocations, AreOnlyBulletsOwnForClothOnABall)
 {
     const auto run = [](bool touches)
@@ -191,7 +192,7 @@ TEST(Allocations, AreOnlyBulletsOwnForClothOnABall)
     EXPECT_LE(run(true), run(false));
 }
 
-// Interest that goes up and down takes it through all levels; a stale factor is kept account of.
+// Varying interest moves it through all levels; the account of a stale factor is active.
 TEST(Allocations, AreNoneWithChangingDetailAndAStaleFactor)
 {
     CountingSolver fem;
@@ -303,7 +304,7 @@ TEST(Allocations, AreNoneForHeldBodies)
     EXPECT_EQ(fem.anchors(&upper).size(), 4);
 }
 
-// A step that comes and goes finds its old factor: what factoring allocates is allocated for the first change only.
+// A recurring step reuses its old factor: only the first change allocates for factoring.
 TEST(Allocations, OccurOnceForRecurringSteps)
 {
     CountingSolver fem;
@@ -354,7 +355,7 @@ TEST(Allocations, AreNoneForStressesOnceGrown)
     }
 }
 
-// It holds a link by an anchor, and lies on another one of the same multibody.
+// It is anchored to a link, and rests on another one of that multibody.
 TEST(Allocations, AreNoneForMultibodyLinks)
 {
     CountingSolver fem;
@@ -368,7 +369,7 @@ TEST(Allocations, AreNoneForMultibodyLinks)
     btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.6)),
                                                              btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
     cube.appendDeformableAnchor(0, &link);
-    world.step(60);  // until all has happened once
+    world.step(60);  // until each kind of event has happened
     EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 60), 30);
     EXPECT_GT(fem.touches(&cube).size(), 0);
 }

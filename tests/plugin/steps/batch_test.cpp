@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Copies of a body are solved several at a time, with the bits that they get one by one.
+// Copies of a body solved in batches are bitwise equal to copies solved one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ btFemSolverInfo batchInfo(bool batches, int threads)
     return info;
 }
 
-/// Ten copies of a box, with two of another kind among them, fall on a floor and each other, each in its own state.
+/// Ten copies of a box, with two other bodies among them, fall on a floor and on each other, each with its own state.
 class FallingCopies
 {
 public:
@@ -45,7 +45,7 @@ public:
         for (int k = 0; k < 12; ++k)
             for (int i = 0; i < m_soft[k]->m_nodes.size(); ++i)
                 m_soft[k]->m_nodes[i].m_v.setX(btScalar(0.3 * k * (i % 3)));
-        m_soft[3]->setMass(4, 0);  // now, so that its factor is still the one of the others
+        m_soft[3]->setMass(4, 0);  // after the factor was made, so that it is shared with the others
         m_fem.setDetail(m_soft[6], btFemDetail::globalWarp);
         m_fem.setDetail(m_soft[7], btFemDetail::direct);
     }

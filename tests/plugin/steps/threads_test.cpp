@@ -74,7 +74,7 @@ public:
     int m_mostContacts = 0;
 
 private:
-    // Large enough for its own work to be shared, too.
+    // Large enough that its own work is divided among threads.
     static SoftBox column()
     {
         SoftBox box;
@@ -102,7 +102,7 @@ TEST_P(SharedWorld, GivesTheSameBitsForEveryNumberOfThreads)
     for (const int count : g_counts) EXPECT_TRUE(Heap(GetParam(), count).run(stepsOnThreads(60)) == bits) << count;
 }
 
-// One body's mesh is refused, another's velocity becomes NaN: the others move on, bit for bit as on one thread.
+// One body's mesh is rejected, another's velocity becomes NaN: the others move bitwise as on one thread.
 TEST_P(SharedWorld, LosesNoBodyBesideABadOne)
 {
     const auto run = [](int threads)
@@ -110,7 +110,7 @@ TEST_P(SharedWorld, LosesNoBodyBesideABadOne)
         Heap heap(GetParam(), threads);
         btSoftBody& flat = addUnitCube(heap.m_world, btVector3(20, 0, 5));
         for (int i = 0; i < flat.m_nodes.size(); ++i) flat.m_nodes[i].m_x.setZ(5);
-        flat.initializeDmInverse();  // that is its rest shape
+        flat.initializeDmInverse();  // the flat shape becomes its rest shape
         heap.run(2);
         heap.m_soft[5]->m_nodes[0].m_v.setX(std::numeric_limits<btScalar>::quiet_NaN());
         const std::vector<btScalar> bits = heap.run(10);
@@ -145,8 +145,8 @@ TEST(ThreadsOfASolver, BadCountsAreRejected)
     EXPECT_NO_THROW(btFemSoftBodySolver{withThreads(0)});
 }
 
-/// Handles the pairs of soft bodies as Bullet's multithreaded dispatcher does: several at once. Bullet's own pools are
-/// not made for it in this build, so algorithms are made before, and rigid pairs are handled in turn.
+/// Processes pairs of soft bodies concurrently, as Bullet's multithreaded dispatcher does. Bullet's pools are not
+/// thread-safe in this build, so algorithms are created beforehand, and rigid pairs are processed serially.
 class ConcurrentDispatcher : public btCollisionDispatcher
 {
 public:
@@ -203,7 +203,7 @@ private:
     int m_threads;
 };
 
-/// A soft slab on a floor under a grid of stones, with soft cubes among them: each body is in many pairs.
+/// A soft slab on a floor under a grid of stones, with soft cubes among them: each body has many pairs.
 std::vector<btScalar> runSlab(int collisionThreads, bool manifolds)
 {
     btSoftBodyRigidBodyCollisionConfiguration configuration;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Both lines in the worlds of multibodies: links, their motors and soft bodies in one solve.
+// Monolithic coupling in multibody worlds: links, their motors and soft bodies in one solve.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-/// A world of links with its FEM solver, to be used alike.
+/// A multibody world with its FEM solver, with a common interface for both kinds.
 class SoftMultiBodyLinks
 {
 public:
@@ -103,7 +103,7 @@ TYPED_TEST(CoupledLinks, GripperPressesWithTheForceOfItsMotors)
     constexpr double kForce = 20;  // [N]
     auto& gripper = this->addGripper(kForce);
     auto& world = this->world();
-    world.step(8);  // three until it is closed, and some until the cube is squeezed
+    world.step(8);  // three steps to close, and some to compress the cube
     for (int frame = 0; frame < 60; ++frame)
     {
         world.step();
@@ -150,7 +150,7 @@ TYPED_TEST(CoupledLinks, AWeakGripperDropsIt)
     EXPECT_LT(centerOf(gripper.cube()).z - start, 0.02);
 }
 
-// What the motor of a lift carries is read in its joint, which stands still.
+// The motor of a lift carries the load, which shows in its joint at rest.
 TYPED_TEST(CoupledLinks, ALiftStandsStillUnderItsLoad)
 {
     const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.05));
@@ -177,7 +177,7 @@ TYPED_TEST(CoupledLinks, ALiftStandsStillUnderItsLoad)
     }
 }
 
-// About the hinge, which takes all else.
+// Angular momentum about the hinge, which bears all other components.
 TYPED_TEST(CoupledLinks, HitPendulumReceivesTheAngularMomentum)
 {
     const btVector3 half(btScalar(0.1), btScalar(0.3), btScalar(0.5));
@@ -199,7 +199,7 @@ TYPED_TEST(CoupledLinks, HitPendulumReceivesTheAngularMomentum)
     EXPECT_LT(worst, 2e-5 * std::fabs(start));
 }
 
-// A free base with a plate on a slider: what the joint leaves to Bullet is the same without the cube.
+// A free base with a plate on a slider: momentum is conserved to Bullet's error in the joint, equal without the cube.
 TYPED_TEST(CoupledLinks, LinearMomentumOfAFreeSliderAndACubeIsKept)
 {
     const btVector3 half(btScalar(0.05), btScalar(0.3), btScalar(0.3));
@@ -223,7 +223,7 @@ TYPED_TEST(CoupledLinks, LinearMomentumOfAFreeSliderAndACubeIsKept)
     EXPECT_LT(worst, 2e-5 * start);
 }
 
-// 10 kg on a slab: with the swap it would read g h.
+// 10 kg on a slab: with the swap it would have a velocity of g h.
 TYPED_TEST(CoupledLinks, RigidBodiesRestOnSoftOnes)
 {
     this->begin();
@@ -246,7 +246,7 @@ TYPED_TEST(CoupledLinks, RigidBodiesRestOnSoftOnes)
     EXPECT_EQ(fem.stepReport(&slab).m_flags & BT_FEM_SOLVED_AFTER, 0);
 }
 
-// A free ball of a multibody, pressed by a free block from below, spins on it: a couple between the two.
+// A free ball of a multibody, pressed by a free block from below, spins on it: the couple acts on both.
 template <class World>
 void expectSpinningFrictionKeepsMomenta(World& world, btFemSoftBodySolver& fem)
 {
@@ -288,7 +288,7 @@ TEST(CoupledLinksAlone, SpinningFrictionOfALinkKeepsMomentaWithTheSwapToo)
     expectSpinningFrictionKeepsMomenta(world, fem);
 }
 
-// A cloth over a rigid box that stands on a slab: all three are in one island.
+// A cloth over a rigid box on a slab: all three are in one island.
 TEST(CoupledLinksAlone, ClothRestsOnALoadCarriedByASoftBody)
 {
     const btVector3 gravity(0, 0, btScalar(-kGravity));
@@ -333,7 +333,7 @@ TEST(CoupledLinksAlone, ClothRestsOnALoadCarriedByASoftBody)
     EXPECT_GT(centerOf(cloth).z, 0.2);
 }
 
-// A pendulum with a motor that no soft body is near.
+// A pendulum with a motor, far from soft bodies.
 TEST(CoupledLinksAlone, IslandsWithoutFemBodiesKeepTheirBits)
 {
     const auto swing = [](auto& world)

@@ -25,12 +25,12 @@ TEST_P(ElasticForces, StretchAHangingBarAsTheirModuliSay)
     addForces(m_world, bar, GetParam());
     for (int i = 0; i < bar.m_nodes.size(); ++i)
         if (bar.m_nodes[i].m_x.z() > btScalar(-1e-3)) bar.setMass(i, 0);
-    bar.m_cfg.drag = btScalar(0.05);  // it comes to rest
+    bar.m_cfg.drag = btScalar(0.05);  // to settle
     m_world.step(400);
     ASSERT_TRUE(m_solver.fem().isFem(&bar));
     EXPECT_LT(fastestNode(bar), 1e-4);
     const double wanted = kDensity * kGravity * length * length / (2 * kYoung);
-    // The clamped end cannot contract: a little less.
+    // The fixed end cannot contract, so the result is slightly smaller.
     EXPECT_NEAR(-lowestHeight(bar) - length, wanted, 0.04 * wanted);
 }
 
@@ -90,7 +90,7 @@ TEST_F(DeformableWorldTest, MousePickingDragsABodyToTheMouse)
     btSoftBody::Face& face = cube.m_faces[0];
     auto picking = std::make_unique<btDeformableMousePickingForce>(btScalar(2000), btScalar(300), face, mouse, 100);
     btDeformableLagrangianForce& force = addForce(m_world, cube, std::move(picking));
-    btSoftBody& cloth = addCloth(m_world);  // which the force lists, too, as Bullet's worlds do with a second one
+    btSoftBody& cloth = addCloth(m_world);  // the force also lists the cloth, as in Bullet's worlds with a second one
     m_world.world().addForce(&cloth, &force);
     double fastest = 0;
     for (int k = 0; k < 600; ++k)
@@ -140,7 +140,7 @@ TEST_F(DeformableWorldTest, MousePickingPullsWithItsLargestImpulseAndLetsGo)
         m_world, cube, std::make_unique<btDeformableMousePickingForce>(4000, 0, cube.m_faces[0], mouse, btScalar(0.1)));
     m_world.step(60);
     const double impulse = 3 * 0.1 * 60;
-    EXPECT_NEAR(motionOf(cube).m_linear.y, impulse, 0.01 * impulse);  // the body turns a little
+    EXPECT_NEAR(motionOf(cube).m_linear.y, impulse, 0.01 * impulse);  // the body rotates slightly
     ASSERT_EQ(m_solver.fem().anchors(&cube).size(), 3);
     for (int k = 0; k < 3; ++k)
     {

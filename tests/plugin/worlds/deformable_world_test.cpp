@@ -25,7 +25,7 @@ TEST_F(DeformableWorldTest, ClothBesideFemBodiesKeepsItsBits)
         world.addFloorBox();
         std::vector<btSoftBody*> cubes;
         if (withFem) cubes.push_back(&addCube(world, {5, 0, 0.5}));
-        btSoftBody& cloth = addCloth(world);  // its forces first: Bullet sums forces in their order
+        btSoftBody& cloth = addCloth(world);  // its forces first: Bullet sums forces in order
         if (withFem) cubes.push_back(&addCube(world, {-5, 0, 0.5}));
         for (btSoftBody* cube : cubes) addForces(world, *cube);
         std::vector<btScalar> bits;
@@ -46,7 +46,7 @@ TEST_F(DeformableWorldTest, ClothBesideFemBodiesKeepsItsBits)
     }
 }
 
-// Bullet's world makes all soft bodies collide that have VF_DD, whatever they ignore.
+// Bullet's world makes all soft bodies with VF_DD collide, for any ignore lists.
 TEST_F(DeformableWorldTest, ClothIgnoringFemBodiesFallsThroughThem)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 0.5});
@@ -71,7 +71,7 @@ TEST_F(DeformableWorldTest, RemovedBodiesLoseTheirContacts)
     EXPECT_EQ(cube.m_rcontacts.size() + cube.m_faceRigidContacts.size(), 0);
 }
 
-// Held at a strain of 1 % along x: Hooke's law with the force's coefficients.
+// Fixed at a strain of 1 % along x: Hooke's law with the force's coefficients.
 TEST_F(DeformableWorldTest, StressIsThatOfTheForcesCoefficients)
 {
     btSoftBody& cube = addCube(m_world, {0, 0, 1});
@@ -177,7 +177,8 @@ TEST_F(DeformableWorldTest, AnAnchoredLinkHangsOnASoftBody)
         EXPECT_LT(m_solver.fem().anchors(&cube)[k].m_error, 1e-3);  // it would fall by g h^2 = 2.7e-3 m in a step
 }
 
-// A platform on a vertical slider that a motor holds: gravity is Bullet's at another time of the step than elsewhere.
+// A platform on a motorised vertical slider: a deformable world applies gravity at another time within the step than
+// other worlds.
 TEST_F(DeformableWorldTest, MotorHeldLinkCarriesABody)
 {
     const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.1));

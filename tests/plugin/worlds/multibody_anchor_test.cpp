@@ -19,7 +19,7 @@ protected:
     static constexpr btScalar kMass = 10;
     static constexpr double kHalf = 0.1;
 
-    // A chain of `links` boxes below a base, all hinged along y; its top at `height`.
+    // A chain of `links` boxes below a base, all with hinges along y; its top is at `height`.
     btMultiBody& addHangingChain(MultiBodyWorld& world, int links, double height)
     {
         const btScalar edge = btScalar(kHalf);
@@ -101,7 +101,7 @@ TEST_F(HeldMultiBody, SleepingMultibodyIsWokenByAFallingBody)
     EXPECT_LT(chain.getBaseVel().z(), -0.5);
 }
 
-// They are apart, in islands of their own: nothing but the anchor's impulse can wake it.
+// They are apart, in separate islands: only the anchor's impulse can wake it.
 TEST_F(HeldMultiBody, ASleepingMultibodyIsWokenByAnAnchorFarAway)
 {
     MultiBodyWorld world(m_fem, kNoGravity);

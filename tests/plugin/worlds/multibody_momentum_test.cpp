@@ -32,7 +32,7 @@ TEST_F(MultiBodyWorldTest, HitPendulumReceivesTheAngularMomentum)
     EXPECT_LT(worst, 2e-5 * std::fabs(start));
 }
 
-// The same pendulum as a rigid body on Bullet's hinge, which is solved after the soft body pushed it.
+// The reference is an equal pendulum as a rigid body on Bullet's hinge, which is solved after the soft body's push.
 TEST_F(MultiBodyWorldTest, APendulumTurnsLikeARigidBodyOnAHinge)
 {
     const btVector3 half(btScalar(0.1), btScalar(0.3), btScalar(0.5));
@@ -64,7 +64,8 @@ class FastLink : public MultiBodyWorldTest, public ::testing::WithParamInterface
 {
 };
 
-// A plate that goes farther in a step than it and the cube are thick; on a slider along x, or on a hinge 2 m above.
+// A plate that moves farther in a step than the thickness of it and the cube; on a slider along x, or on a hinge 2 m
+// above.
 TEST_P(FastLink, IsStoppedByACubeAndKeepsMomentumAlongItsJoint)
 {
     MultiBodyWorld world(m_fem, kNoGravity);
@@ -122,7 +123,7 @@ class FreeChain : public MultiBodyWorldTest, public ::testing::WithParamInterfac
 protected:
     static constexpr btScalar kMass = 15;
 
-    // Three boxes in a row along x, free in space, the middle one the base.
+    // Three boxes in a row along x in free space, the middle one as base.
     btMultiBody& addChain(MultiBodyWorld& world)
     {
         const btVector3 half(btScalar(0.25), btScalar(0.3), btScalar(0.1));
@@ -155,9 +156,8 @@ protected:
     }
 };
 
-// The cube covers the seam between the base and a link, and hits off the middle. Bullet's own steps of joint
-// coordinates keep momentum to the first order of the step only, so what soft bodies do is measured from where Bullet
-// left off.
+// The cube covers the seam between the base and a link, and hits eccentrically. Bullet's steps of joint coordinates
+// conserve momentum to first order in the step only, so the oracle is the momentum after Bullet's part.
 TEST_P(FreeChain, KeepsAllMomentaWhenHitOnTwoLinksAtOnce)
 {
     MultiBodyWorld world(m_fem, kNoGravity);

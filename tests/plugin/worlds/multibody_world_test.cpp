@@ -80,14 +80,14 @@ TEST_F(MultiBodyWorldTest, ASlidingCubeDragsItsSliderAlong)
     EXPECT_LT(worst, 2e-5);
     EXPECT_NEAR(link.m_multiBody->getJointVel(0), together, 0.01);
     EXPECT_NEAR(velocityOf(cube).x, together, 0.01);
-    EXPECT_NEAR(carried, massOf(cube) * kGravity, 0.02 * massOf(cube) * kGravity);  // it is the joint that bears it
+    EXPECT_NEAR(carried, massOf(cube) * kGravity, 0.02 * massOf(cube) * kGravity);  // the joint carries it
 }
 
 class ImmovableLink : public MultiBodyWorldTest, public ::testing::WithParamInterface<int>
 {
 };
 
-// What a cube at rest on the base of a multibody feels: fixed to the world, static by flag, kinematic.
+// Contact forces on a cube at rest on the base of a multibody: fixed to the world, static by flag, kinematic.
 TEST_P(ImmovableLink, CarriesACubeLikeAFloor)
 {
     MultiBodyWorld world(m_fem);
@@ -133,7 +133,7 @@ TEST_F(MultiBodyWorldTest, AKinematicBaseTakesACubeAlong)
     EXPECT_NEAR(centerOf(cube).x, 0.6, 0.02);
 }
 
-// Cloth, and a chain that only it touches.
+// Cloth, and a chain that is in contact with the cloth only.
 TEST_F(MultiBodyWorldTest, ClothBesideFemBodiesKeepsItsBits)
 {
     const auto run = [this](btSoftBodySolver& solver, bool withFem)

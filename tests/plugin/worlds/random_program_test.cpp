@@ -17,7 +17,7 @@ namespace
 
 constexpr int kPrograms = 5, kActs = 250;
 
-// BULLETFEM_RANDOM_PROGRAMS=first,count in the environment runs others.
+// BULLETFEM_RANDOM_PROGRAMS=first,count in the environment selects others.
 struct Seeds
 {
     unsigned m_first = 1;
@@ -37,8 +37,8 @@ class AnyProgram : public testing::TestWithParam<std::tuple<WorldClass, Coupling
 {
 };
 
-// Whatever a program does, nodes and rigid bodies are finite after a step. What has been written to a body that is not
-// active stays in it.
+// After any call sequence nodes and rigid bodies are finite after a step. Inactive bodies keep the values written to
+// them.
 TEST_P(AnyProgram, NeitherCrashesNorSpreadsBadNumbers)
 {
     const Seeds seeds;
@@ -62,7 +62,7 @@ TEST_P(AnyProgram, NeitherCrashesNorSpreadsBadNumbers)
         }
         refusals += program.refusals();
     }
-    EXPECT_GT(refusals, 0);  // bad input was among it
+    EXPECT_GT(refusals, 0);  // some input was bad
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, AnyProgram,
