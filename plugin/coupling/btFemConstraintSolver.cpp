@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemSolveTogether.h"
+#include "plugin/coupling/btFemIslands.h"
+#include "plugin/coupling/btFemSolveTogether.h"
 
 btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
 {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "BulletDynamics/ConstraintSolver/btContactSolverInfo.h"
-#include "plugin/btFemIslands.h"
+#include "plugin/coupling/btFemIslands.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/stages/btFemContactGroup.h"
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemLinkRows.h"
-#include "plugin/btFemSolveTogether.h"
+#include "plugin/coupling/btFemIslands.h"
+#include "plugin/coupling/btFemLinkRows.h"
+#include "plugin/coupling/btFemSolveTogether.h"
 
 btFemMultiBodyConstraintSolver::btFemMultiBodyConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
 {

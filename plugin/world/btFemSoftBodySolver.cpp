@@ -13,7 +13,7 @@
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
-#include "plugin/btFemWorldStep.h"
+#include "plugin/world/btFemWorldStep.h"
 #include "plugin/dispatch/btFemDispatch.h"
 #include "plugin/dispatch/btFemManifolds.h"
 #include "plugin/record/btFemCollisionFlags.h"

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemDeformableBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemLinkRows.h"
-#include "plugin/btFemSolveTogether.h"
+#include "plugin/coupling/btFemIslands.h"
+#include "plugin/coupling/btFemLinkRows.h"
+#include "plugin/coupling/btFemSolveTogether.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/record/btFemCoupling.h"
 

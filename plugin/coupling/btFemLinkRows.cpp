@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemLinkRows.h"
+#include "plugin/coupling/btFemLinkRows.h"
 
 template <class Visit>
 void btFemLinkRows::forEach(const Visit& visit) const
