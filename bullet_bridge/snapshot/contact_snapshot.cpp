@@ -119,8 +119,9 @@ void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
 {
     if (joint.m_kind < HeldJoint::Kind::anchor || joint.m_kind > HeldJoint::Kind::spring)
         reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 5]");
-    if (joint.m_node < (isAnchor(joint) ? 0 : -1) || joint.m_node >= nodesOf(fem))
-        reject("the node of a joint is ", joint.m_node, ", not in [0, ", nodesOf(fem), ")");
+    const int least = isAnchor(joint) ? 0 : -1;  // -1: no node
+    if (joint.m_node < least || joint.m_node >= nodesOf(fem))
+        reject("the node of a joint is ", joint.m_node, ", not in [", least, ", ", nodesOf(fem), ")");
     checkSane("a joint", joint.m_point, joint.m_impulse, joint.m_error);
 }
 
