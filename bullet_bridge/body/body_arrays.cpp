@@ -52,9 +52,9 @@ bool hasAsManyAsSetUp(const FemSoftBody& fem)
 void followNodes(FemSoftBody& fem)
 {
     btSoftBody& soft = *fem.m_softBody;
-    if (soft.m_nodes.size() == 0 || &soft.m_nodes[0] == fem.m_firstNode) return;
-    const Shift shift(fem.m_firstNode, nodeCountOf(fem), &soft.m_nodes[0]);
-    fem.m_firstNode = &soft.m_nodes[0];
+    if (soft.m_nodes.size() == 0 || &soft.m_nodes[0] == fem.m_setUp.m_firstNode) return;
+    const Shift shift(fem.m_setUp.m_firstNode, nodeCountOf(fem), &soft.m_nodes[0]);
+    fem.m_setUp.m_firstNode = &soft.m_nodes[0];
     for (int e = 0; e < soft.m_tetras.size(); ++e)
         for (btSoftBody::Node*& node : soft.m_tetras[e].m_n) shift.apply(node);
     for (int i = 0; i < soft.m_renderNodesParents.size(); ++i)
@@ -66,17 +66,17 @@ void followNodes(FemSoftBody& fem)
 
 bool arraysAsSetUp(const FemSoftBody& fem)
 {
-    return hasAsManyAsSetUp(fem) && &fem.m_softBody->m_nodes[0] == fem.m_firstNode;
+    return hasAsManyAsSetUp(fem) && &fem.m_softBody->m_nodes[0] == fem.m_setUp.m_firstNode;
 }
 
 bool topologyAsSetUp(const FemSoftBody& fem)
 {
-    return hasAsManyAsSetUp(fem) && fem.m_topology.match(*fem.m_softBody);
+    return hasAsManyAsSetUp(fem) && fem.m_setUp.m_topology.match(*fem.m_softBody);
 }
 
 bool topologyInTurnAsSetUp(FemSoftBody& fem)
 {
-    return hasAsManyAsSetUp(fem) && fem.m_topology.matchInTurn(*fem.m_softBody);
+    return hasAsManyAsSetUp(fem) && fem.m_setUp.m_topology.matchInTurn(*fem.m_softBody);
 }
 
 bool hasUsableNodes(const btSoftBody& body)

@@ -31,20 +31,18 @@ btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                          std::shared_ptr<ComplianceCache> compliance)
     : m_softBody(&softBody),
-      m_firstNode(&softBody.m_nodes[0]),
       m_mark(markBody(softBody)),
-      m_topology(softBody),
+      m_setUp{&softBody.m_nodes[0], TopologyMarks(softBody), vec3(softBody.m_nodes[0].m_x), {}},
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
       m_surface(m_body.m_model->mesh())
 {
     const int n = softBody.m_nodes.size();
-    m_restOrigin = vec3(softBody.m_nodes[0].m_x);
     m_pins.m_velocity.resize(n);
     m_pins.m_position.resize(n);
     m_pins.m_hasTarget.assign(n, 0);
     m_pins.m_moved.assign(n, 0);
-    m_predicted.reserve(n);
+    m_memory.m_predicted.reserve(n);
     sizeScratch();
     noteRestMatrices(*this);
     for (int i = 0; i < n; ++i)
@@ -65,42 +63,42 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
 
 void FemSoftBody::sizeScratch()
 {
-    m_nodeGap.resize(m_surface.vertexCount());
-    m_nodeNormal.resize(m_surface.vertexCount());
-    m_edgeGap.resize(m_surface.features().m_edges.size());
-    m_contacts.clear();
-    m_origins.clear();
-    m_impacts.clear();
+    m_search.m_nodeGap.resize(m_surface.vertexCount());
+    m_search.m_nodeNormal.resize(m_surface.vertexCount());
+    m_search.m_edgeGap.resize(m_surface.features().m_edges.size());
+    m_memory.m_contacts.clear();
+    m_memory.m_origins.clear();
+    m_memory.m_impacts.clear();
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
 {
     m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(m_body.m_model->mesh());
-    if (skin || m_skin) m_sheetSides.clear();
+    if (skin || m_skin) m_memory.m_sheetSides.clear();
     m_skin = std::move(skin);
-    m_skinPosition.resize(m_skin ? m_surface.vertexCount() : 0);
-    m_skinVelocity.resize(m_skinPosition.size());
+    m_skinMotion.m_position.resize(m_skin ? m_surface.vertexCount() : 0);
+    m_skinMotion.m_velocity.resize(m_skinMotion.m_position.size());
     m_compliance = std::move(compliance);
     sizeScratch();
 }
 
 void FemSoftBody::updateSkin()
 {
-    if (!m_skin || (m_isHeldForSearches && m_isSkinUpdated)) return;
-    m_skin->follow(m_body.m_state.m_x, m_skinPosition);
-    m_skin->follow(freeMeanVelocity(m_body), m_skinVelocity);
-    m_isSkinUpdated = true;
+    if (!m_skin || (m_skinMotion.m_isHeld && m_skinMotion.m_isUpdated)) return;
+    m_skin->follow(m_body.m_state.m_x, m_skinMotion.m_position);
+    m_skin->follow(freeMeanVelocity(m_body), m_skinMotion.m_velocity);
+    m_skinMotion.m_isUpdated = true;
 }
 
 void FemSoftBody::holdForSearches(bool held)
 {
-    m_isHeldForSearches = held;
-    m_isSkinUpdated = false;
+    m_skinMotion.m_isHeld = held;
+    m_skinMotion.m_isUpdated = false;
 }
 
 const std::vector<Vec3>& FemSoftBody::surfaceVelocity() const
 {
-    return m_skin ? m_skinVelocity : freeMeanVelocity(m_body);
+    return m_skin ? m_skinMotion.m_velocity : freeMeanVelocity(m_body);
 }
 
 bool restMatricesChanged(const FemSoftBody& fem)
@@ -114,7 +112,7 @@ bool restMatricesChanged(const FemSoftBody& fem)
         return true;
     };
     for (int e = 0; e < tetras.size(); ++e)
-        if (!sameBits(tetras[e].m_Dm_inverse, fem.m_restMatrices[e])) return true;
+        if (!sameBits(tetras[e].m_Dm_inverse, fem.m_setUp.m_restMatrices[e])) return true;
     seenMark(tetras) = kSeen;
     return false;
 }
@@ -122,8 +120,8 @@ bool restMatricesChanged(const FemSoftBody& fem)
 void noteRestMatrices(FemSoftBody& fem)
 {
     btAlignedObjectArray<btSoftBody::Tetra>& tetras = fem.m_softBody->m_tetras;
-    fem.m_restMatrices.clear();
-    for (int e = 0; e < tetras.size(); ++e) fem.m_restMatrices.push_back(tetras[e].m_Dm_inverse);
+    fem.m_setUp.m_restMatrices.clear();
+    for (int e = 0; e < tetras.size(); ++e) fem.m_setUp.m_restMatrices.push_back(tetras[e].m_Dm_inverse);
     seenMark(tetras) = kSeen;
 }
 
@@ -159,13 +157,13 @@ double fastestVertex(const FemSoftBody& fem, const Vec3& relativeTo)
 {
     if (!fem.m_skin) return fastestNode(fem.m_body, relativeTo);
     double fastest = 0;
-    for (const Vec3& v : fem.m_skinVelocity) fastest = std::max(fastest, norm(v - relativeTo));
+    for (const Vec3& v : fem.surfaceVelocity()) fastest = std::max(fastest, norm(v - relativeTo));
     return fastest;
 }
 
 Vec3 FemSoftBody::gravity() const
 {
-    if (m_hasOwnGravity) return m_ownGravity;
+    if (m_settings.m_ownGravity) return *m_settings.m_ownGravity;
     return m_softBody->m_worldInfo ? vec3(m_softBody->m_worldInfo->m_gravity) : Vec3();
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "BulletSoftBody/btSoftBody.h"
@@ -101,6 +102,52 @@ struct Impact
     }
 };
 
+/// Contact from step to step, as the last step left it.
+struct ContactMemory
+{
+    std::vector<Vec3> m_predicted;         ///< contact impulses in the free motion [N s], one per node; empty: none
+                                           ///< (ContactPrediction)
+    std::vector<ContactPoint> m_contacts;  ///< contacts of the last step
+    std::vector<ContactOrigin> m_origins;  ///< one per contact, ascending
+    std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
+    std::vector<Impact> m_impacts;         ///< collisions that are not over
+};
+
+/// Found at set-up in the btSoftBody, for comparison with its present state.
+struct SetUpState
+{
+    const btSoftBody::Node* m_firstNode;  ///< start of the array of nodes at the last check
+    TopologyMarks m_topology;
+    Vec3 m_restOrigin;  ///< position of node 0 of the rest shape, aligned with the body (RestMesh) [m]
+    std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements at the last noteRestMatrices()
+};
+
+/// Settings of one body.
+struct BodySettings
+{
+    double m_numericalDamping = 1;     ///< numerical damping of StepSettings that factors are made for
+    double m_contactOffset = 0;        ///< [m]
+    std::optional<Vec3> m_ownGravity;  ///< replaces the world info's in Bullet's deformable world [m/s2]; there,
+                                       ///< m_cfg.drag replaces kDP
+};
+
+/// Objects whose bounds overlap the body's in this step.
+struct BodyOverlaps
+{
+    std::mutex m_mutex;  ///< guards the lists while Bullet's threads collide
+    std::vector<const btCollisionObject*> m_rigid;
+    std::vector<const btSoftBody*> m_soft;  ///< FEM bodies; the body itself: self contact
+};
+
+/// Scratch of the contact search.
+struct SearchScratch
+{
+    MeanMotion m_meanMotion;         ///< at the start of the step; valid if the body may have contact
+    std::vector<double> m_nodeGap;   ///< one per vertex
+    std::vector<Vec3> m_nodeNormal;  ///< one per vertex
+    std::vector<double> m_edgeGap;   ///< one per surface edge: gap at its midpoint
+};
+
 /// A btSoftBody and its finite-element body.
 struct FemSoftBody
 {
@@ -117,7 +164,7 @@ struct FemSoftBody
     void holdForSearches(bool held);
 
     /// Positions [m] and expected velocities [m/s] of the collision surface's vertices; without a skin, one per node.
-    const std::vector<Vec3>& surfacePosition() const { return m_skin ? m_skinPosition : m_body.m_state.m_x; }
+    const std::vector<Vec3>& surfacePosition() const { return m_skin ? m_skinMotion.m_position : m_body.m_state.m_x; }
     const std::vector<Vec3>& surfaceVelocity() const;
 
     /// A point of a triangle of the collision surface as the solver's SurfacePoint.
@@ -126,52 +173,34 @@ struct FemSoftBody
         return m_skin ? m_skin->pointOf(body, vertices, weights) : pointOf(body, vertices, weights);
     }
 
-    btSoftBody* m_softBody;
-    const btSoftBody::Node* m_firstNode;  ///< start of the array of nodes at the last check
-    std::uint64_t m_mark;                 ///< mark of the btSoftBody: see body_mark.h
-    TopologyMarks m_topology;             ///< of the set-up
-    Body m_body;
-    Vec3 m_restOrigin;  ///< position of node 0 of the rest shape, aligned with the body at set-up (RestMesh) [m]
-    std::vector<btMatrix3x3> m_restMatrices;  ///< m_Dm_inverse of the elements at the last noteRestMatrices()
-    std::shared_ptr<ComplianceCache> m_compliance;
-    WrittenNodes m_written;
-    NodePins m_pins;
-    double m_numericalDamping = 1;  ///< numerical damping of StepSettings that factors are made for
-    double m_contactOffset = 0;     ///< [m]
-    bool m_hasOwnGravity = false;
-    Vec3 m_ownGravity;  ///< replaces the world info's in Bullet's deformable world [m/s2]; there, m_cfg.drag replaces
-                        ///< kDP
-
     /// Gravity that acts on the body [m/s2]; not checked.
     Vec3 gravity() const;
 
-    std::mutex m_overlapMutex;  ///< guards m_overlapping and m_overlappingSoft while Bullet's threads collide
-    std::vector<const btCollisionObject*> m_overlapping;  ///< rigid objects whose bounds overlap in this step
-
-    std::vector<const btSoftBody*> m_overlappingSoft;  ///< FEM bodies whose bounds overlap in this step; itself: self
-                                                       ///< contact
-
+    btSoftBody* m_softBody;
+    std::uint64_t m_mark;  ///< mark of the btSoftBody: see body_mark.h
+    SetUpState m_setUp;
+    Body m_body;
+    std::shared_ptr<ComplianceCache> m_compliance;
+    WrittenNodes m_written;
+    NodePins m_pins;
+    BodySettings m_settings;
+    BodyOverlaps m_overlaps;
     HeldJoints m_joints;  ///< joints, attachments and springs of the body
-
-    std::vector<Vec3> m_predicted;  ///< contact impulses in the free motion [N s], one per node; empty: none
-                                    ///< (ContactPrediction)
-
-    MeanMotion m_meanMotion;                      ///< at the start of the step; valid if the body may have contact
-    std::vector<ContactPoint> m_contacts;         ///< contacts of the last step
-    std::vector<ContactOrigin> m_origins;         ///< one per contact, ascending
-    std::vector<SheetSide> m_sheetSides;          ///< of the last step, ascending
-    std::vector<Impact> m_impacts;                ///< collisions that are not over
+    ContactMemory m_memory;
     SoftSurface m_surface;                        ///< collision surface; call its update() before soft contact searches
     std::shared_ptr<const CollisionSkin> m_skin;  ///< collision surface embedded in the mesh; null: the mesh's boundary
-    std::vector<Vec3> m_skinPosition, m_skinVelocity;  ///< see updateSkin
-    std::vector<double> m_nodeGap;                     ///< scratch of the contact search, one per vertex
-    std::vector<Vec3> m_nodeNormal;                    ///< scratch, one per vertex
-    std::vector<double> m_edgeGap;                     ///< scratch, one per surface edge: gap at its midpoint
+    SearchScratch m_search;
 
 private:
+    struct SkinMotion
+    {
+        std::vector<Vec3> m_position, m_velocity;    // see updateSkin
+        bool m_isHeld = false, m_isUpdated = false;  // see holdForSearches
+    };
+
     void sizeScratch();
 
-    bool m_isHeldForSearches = false, m_isSkinUpdated = false;
+    SkinMotion m_skinMotion;
 };
 
 /// True if a rest matrix has changed since noteRestMatrices(), as by initializeDmInverse or by scaling the body. Never

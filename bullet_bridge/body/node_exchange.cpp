@@ -209,7 +209,7 @@ double factorMismatch(const FemSoftBody& fem, double step)
 {
     const BodyModel& model = *fem.m_body.m_model;
     const FactorInput& input = model.factorInput();
-    const double steps = factorStep(step, fem.m_numericalDamping, model.shape().m_material) / input.m_step;
+    const double steps = factorStep(step, fem.m_settings.m_numericalDamping, model.shape().m_material) / input.m_step;
     double least = std::min(steps, 1.0), most = std::max(steps, 1.0);
     for (std::size_t i = 0; i < input.m_mass.size(); ++i)
     {
@@ -244,7 +244,7 @@ bool readLoads(FemSoftBody& fem, double step)
     }
     // Bullet multiplies velocities by 1 - kDP per step, in its deformable world by 1 - drag. The equivalent implicit
     // rate alpha is kDP / (h (1 - kDP)).
-    const double kDP = fem.m_hasOwnGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
+    const double kDP = fem.m_settings.m_ownGravity ? soft.m_cfg.drag : soft.m_cfg.kDP;
     loads.m_massDamping = kDP > 0 ? std::min(kDP, 0.999) / (step * (1 - std::min(kDP, 0.999))) : 0;
     matchPose(fem, step);
     return usable;
@@ -278,7 +278,7 @@ void setSweptBounds(FemSoftBody& fem, double step, double margin)
             highest[c] = std::max({highest[c], now[c], then[c]});
         }
     }
-    const double wide = margin + fem.m_contactOffset;
+    const double wide = margin + fem.m_settings.m_contactOffset;
     fem.m_softBody->m_bounds[0] = bulletVector(lowest - Vec3{wide, wide, wide});
     fem.m_softBody->m_bounds[1] = bulletVector(highest + Vec3{wide, wide, wide});
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body/face_tree.h"
 #include "bullet_bridge/body/rest_positions.h"
 
 namespace bullet_fem
@@ -75,6 +76,15 @@ void makeFaces(btSoftBody& body, const TetMesh& mesh)
     body.m_faces.reserve(static_cast<int>(mesh.surface().size()));
     for (const Triangle& t : facesOf(mesh)) body.appendFace(t[0], t[1], t[2]);
     body.updateNormals();
+}
+
+void makeTets(btSoftBody& body, const TetMesh& mesh)
+{
+    body.m_tetras.reserve(mesh.tetCount());
+    for (const Tet& tet : mesh.tets()) body.appendTetra(tet[0], tet[1], tet[2], tet[3]);
+    makeFaces(body, mesh);
+    keepFaceTree(body);
+    body.initializeDmInverse();
 }
 
 void storeFill(btSoftBody& body, int tet, double fraction, double massScale)

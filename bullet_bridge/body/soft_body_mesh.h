@@ -39,6 +39,9 @@ double massScaleOf(const btSoftBody& body);
 /// Gives a body without faces those of the mesh's surface, for wind, pressure and drawing.
 void makeFaces(btSoftBody& body, const TetMesh& mesh);
 
+/// Gives a body of nodes alone a mesh's tetrahedra, faces with their tree, and rest matrices.
+void makeTets(btSoftBody& body, const TetMesh& mesh);
+
 /// Stores an element's filled fraction and the mass scale in btSoftBody::Tetra::m_c1 and m_c2, fields that Bullet
 /// serialises and no longer uses. 0, their value after appendTetra, means 1.
 void storeFill(btSoftBody& body, int tet, double fraction, double massScale);

@@ -135,10 +135,10 @@ void splitSoftBody(FemSoftBody& fem, const SplitMesh& split, const std::vector<d
         const bool isOfSplit = i >= before.nodeCount() || std::binary_search(copyOf.begin(), copyOf.end(), i);
         if (isOfSplit && inverse != 0) fem.m_written.m_inverseMass[i] = inverse = static_cast<btScalar>(1 / mass[i]);
     }
-    fem.m_topology = TopologyMarks(soft);
+    fem.m_setUp.m_topology = TopologyMarks(soft);
     fem.m_joints.m_isWelded.clear();
-    fem.m_predicted.clear();
-    fem.m_predicted.reserve(mass.size());
+    fem.m_memory.m_predicted.clear();
+    fem.m_memory.m_predicted.reserve(mass.size());
     fem.setSkin(nullptr, std::move(compliance));
     keepFaceTree(soft);
     soft.updateNormals();

@@ -144,7 +144,7 @@ void Rebounds::note(const ContactProblem& problem, const std::vector<FemSoftBody
                     double least)
 {
     for (FemSoftBody* fem : bodies)
-        for (Impact& impact : fem->m_impacts) impact.m_isNear = impact.m_isPressed = false;
+        for (Impact& impact : fem->m_memory.m_impacts) impact.m_isNear = impact.m_isPressed = false;
     gather(problem, bodies);
     for (const Patch& patch : m_patches) notePatch({problem, bodies, rigid}, patch, least);
 }
@@ -153,7 +153,7 @@ void Rebounds::notePatch(const Scene& scene, const Patch& patch, double least)
 {
     const btCollisionObject* other = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody]->m_softBody
                                                             : &scene.m_rigid.object(patch.m_rigidProxy);
-    std::vector<Impact>& impacts = scene.m_bodies[patch.m_body]->m_impacts;
+    std::vector<Impact>& impacts = scene.m_bodies[patch.m_body]->m_memory.m_impacts;
     const double size = norm(patch.m_normal);
     Impact now;
     now.m_other = other;
@@ -236,7 +236,7 @@ void Rebounds::give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world
     world.forget();
     for (FemSoftBody* fem : bodies)
     {
-        std::vector<Impact>& impacts = fem->m_impacts;
+        std::vector<Impact>& impacts = fem->m_memory.m_impacts;
         const auto isOver = [&](Impact& impact)
         {
             const Other other = otherOf(*fem, impact, bodies, world);

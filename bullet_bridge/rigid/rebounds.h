@@ -21,7 +21,7 @@ bool mayRebound(const ContactProblem& problem);
 /// Restitution. The contact solve itself has none: bodies rebound by their elasticity. When contact no longer drives
 /// two colliding bodies apart, and they separate more slowly than the coefficient of restitution demands, one impulse
 /// on both adds the missing speed, with at most the energy that the contact has lost. Speeds are those of the bodies'
-/// rigid motions at the centre of the contact patch. State is kept in FemSoftBody::m_impacts.
+/// rigid motions at the centre of the contact patch. State is kept in ContactMemory::m_impacts.
 class Rebounds
 {
 public:

@@ -119,8 +119,9 @@ void checkHeld(const HeldJoint& joint, const FemSoftBody& fem)
 {
     if (joint.m_kind < HeldJoint::Kind::anchor || joint.m_kind > HeldJoint::Kind::spring)
         reject("the kind of a joint is ", static_cast<int>(joint.m_kind), ", not in [0, 5]");
-    if (joint.m_node < (isAnchor(joint) ? 0 : -1) || joint.m_node >= nodesOf(fem))
-        reject("the node of a joint is ", joint.m_node, ", not in [0, ", nodesOf(fem), ")");
+    const int least = isAnchor(joint) ? 0 : -1;  // -1: no node
+    if (joint.m_node < least || joint.m_node >= nodesOf(fem))
+        reject("the node of a joint is ", joint.m_node, ", not in [", least, ", ", nodesOf(fem), ")");
     checkSane("a joint", joint.m_point, joint.m_impulse, joint.m_error);
 }
 
@@ -207,10 +208,10 @@ void checkNodeCount(int count)
 ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
 {
     ContactSnapshot s;
-    s.m_contacts = fem.m_contacts;
-    s.m_origins = fem.m_origins;
-    s.m_sheetSides = fem.m_sheetSides;
-    for (const Impact& impact : fem.m_impacts) s.m_impacts.push_back({impact, world.idOf(impact.m_other)});
+    s.m_contacts = fem.m_memory.m_contacts;
+    s.m_origins = fem.m_memory.m_origins;
+    s.m_sheetSides = fem.m_memory.m_sheetSides;
+    for (const Impact& impact : fem.m_memory.m_impacts) s.m_impacts.push_back({impact, world.idOf(impact.m_other)});
     for (const HeldJoint& joint : fem.m_joints.m_now)
     {
         HeldSnapshot held;
@@ -252,27 +253,28 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
 
 void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
 {
-    fem.m_contacts.clear();
-    fem.m_origins.clear();
+    ContactMemory& memory = fem.m_memory;
+    memory.m_contacts.clear();
+    memory.m_origins.clear();
     for (std::size_t k = 0; k < s.m_contacts.size(); ++k)
     {
         const btCollisionObject* object = world.objectOf(s.m_origins[k].m_objectId);
         if (!object) continue;
-        fem.m_contacts.push_back(s.m_contacts[k]);
-        fem.m_origins.push_back(s.m_origins[k]);
-        fem.m_origins.back().m_object = object;
+        memory.m_contacts.push_back(s.m_contacts[k]);
+        memory.m_origins.push_back(s.m_origins[k]);
+        memory.m_origins.back().m_object = object;
     }
-    fem.m_sheetSides.assign(s.m_sheetSides.begin(), s.m_sheetSides.end());
-    fem.m_impacts.clear();
+    memory.m_sheetSides.assign(s.m_sheetSides.begin(), s.m_sheetSides.end());
+    memory.m_impacts.clear();
     for (const ImpactSnapshot& impact : s.m_impacts)
     {
         const btCollisionObject* other = world.objectOf(impact.m_other);
         if (!other) continue;
-        fem.m_impacts.push_back(impact.m_impact);
-        fem.m_impacts.back().m_other = other;
+        memory.m_impacts.push_back(impact.m_impact);
+        memory.m_impacts.back().m_other = other;
     }
-    fem.m_overlapping.clear();
-    fem.m_overlappingSoft.clear();
+    fem.m_overlaps.m_rigid.clear();
+    fem.m_overlaps.m_soft.clear();
     restoreJoints(s, world, fem.m_joints);
     fem.m_surface.restorePlace(s.m_place);
 }

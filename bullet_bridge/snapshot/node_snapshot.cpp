@@ -156,7 +156,7 @@ NodeSnapshot nodeSnapshotOf(const FemSoftBody& fem)
     if (!allZero(fem.m_pins.m_position)) s.m_pinPosition = fem.m_pins.m_position;
     if (!allZero(fem.m_pins.m_hasTarget)) s.m_hasTarget = fem.m_pins.m_hasTarget;
     if (!allZero(fem.m_pins.m_moved)) s.m_moved = fem.m_pins.m_moved;
-    s.m_restOrigin = fem.m_restOrigin;
+    s.m_restOrigin = fem.m_setUp.m_restOrigin;
     return s;
 }
 
@@ -221,7 +221,7 @@ void restore(const NodeSnapshot& s, FemSoftBody& fem)
     soft.forceActivationState(s.m_activation);
     soft.setDeactivationTime(s.m_deactivationTime);
     soft.m_maxSpeedSquared = s.m_maxSpeedSquared;
-    fem.m_restOrigin = s.m_restOrigin;
+    fem.m_setUp.m_restOrigin = s.m_restOrigin;
 }
 
 }  // namespace bullet_fem

@@ -4,14 +4,12 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
 
-class btFemContactGroup;
-class btFemIslands;
+class btFemIslandSolver;
 class btFemSoftBodySolver;
 
 /// Bullet's rigid-body solver, with contacts and joints of FEM bodies swept together with those between rigid bodies
@@ -47,13 +45,7 @@ protected:
                                                const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
 
 private:
-    void noteImpulses();
-    void restoreNoted();
-    template <class Visit>
-    void forEachRigidRow(Visit visit);
+    friend class btFemIslandSolver;
 
-    btFemSoftBodySolver* m_fem;
-    btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
-    std::unique_ptr<btFemIslands> m_islands;
-    std::vector<btScalar> m_noted;  // impulses of the rigid rows in the best round so far [N s]
+    std::unique_ptr<btFemIslandSolver> m_islandSolver;
 };

@@ -4,15 +4,13 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "BulletSoftBody/btDeformableMultiBodyConstraintSolver.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
 
-class btFemContactGroup;
 class btFemDeformableBodySolver;
-class btFemIslands;
+class btFemIslandSolver;
 
 /// The counterpart of btFemConstraintSolver for btDeformableMultiBodyDynamicsWorld (see
 /// btFemMultiBodyConstraintSolver): give it to the world's constructor in place of
@@ -49,10 +47,8 @@ protected:
                                             const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
 
 private:
-    bool isFem(const btCollisionObject& body) const;
+    friend class btFemIslandSolver;
 
     btFemDeformableBodySolver* m_deformable;
-    btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
-    std::unique_ptr<btFemIslands> m_islands;
-    std::vector<btScalar> m_noted;  // impulses of Bullet's rows in the best round so far [N s]
+    std::unique_ptr<btFemIslandSolver> m_islandSolver;
 };

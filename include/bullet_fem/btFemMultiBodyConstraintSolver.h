@@ -4,14 +4,12 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
 
-class btFemContactGroup;
-class btFemIslands;
+class btFemIslandSolver;
 class btFemSoftBodySolver;
 
 /// The counterpart of btFemConstraintSolver for btSoftMultiBodyDynamicsWorld: Bullet's solver of rigid bodies and
@@ -48,8 +46,7 @@ protected:
                                                const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
 
 private:
-    btFemSoftBodySolver* m_fem;
-    btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
-    std::unique_ptr<btFemIslands> m_islands;
-    std::vector<btScalar> m_noted;  // impulses of Bullet's rows in the best round so far [N s]
+    friend class btFemIslandSolver;
+
+    std::unique_ptr<btFemIslandSolver> m_islandSolver;
 };

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/body/face_tree.h"
 #include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemVectors.h"
 #include "bullet_fem/fem/baked/baked_body.h"
@@ -44,11 +43,7 @@ std::unique_ptr<btSoftBody> softBodyOf(btSoftBodyWorldInfo& worldInfo, const Sol
         masses.push_back(static_cast<btScalar>(solid.m_mass[i]));
     }
     auto body = std::make_unique<btSoftBody>(&worldInfo, mesh.nodeCount(), &positions[0], &masses[0]);
-    body->m_tetras.reserve(mesh.tetCount());
-    for (const Tet& tet : mesh.tets()) body->appendTetra(tet[0], tet[1], tet[2], tet[3]);
-    makeFaces(*body, mesh);
-    keepFaceTree(*body);
-    body->initializeDmInverse();
+    makeTets(*body, mesh);
     for (std::size_t e = 0; e < solid.m_filled.size(); ++e)
         storeFill(*body, static_cast<int>(e), solid.m_filled[e], solid.m_massScale);
     body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // expected for solids; Bullet's default has neither

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "BulletSoftBody/btSoftBody.h"
-#include "bullet_bridge/body/face_tree.h"
 #include "bullet_bridge/body/soft_body_mesh.h"
 #include "bullet_fem/btFemCollision.h"
 #include "bullet_fem/btFemVectors.h"
@@ -230,11 +229,7 @@ btFemPiece pieceOf(const btSoftBody& body, const RestMesh& rest, const SharedMas
         masses.push_back(static_cast<btScalar>(shared.m_mass[node] * volume[i] / shared.m_volume[node]));
     }
     auto made = std::make_unique<btSoftBody>(body.m_worldInfo, count, &positions[0], &masses[0]);
-    made->m_tetras.reserve(mesh.tetCount());
-    for (const Tet& tet : mesh.tets()) made->appendTetra(tet[0], tet[1], tet[2], tet[3]);
-    makeFaces(*made, mesh);
-    keepFaceTree(*made);
-    made->initializeDmInverse();
+    makeTets(*made, mesh);
     if (!shared.m_filled.empty())
         for (std::size_t e = 0; e < piece.m_tets.size(); ++e)
             storeFill(*made, static_cast<int>(e), shared.m_filled[piece.m_tets[e]], massScaleOf(body));

@@ -149,7 +149,7 @@ void setTargets(FemSoftBody& body, const btFemNodeGroup& group, const btTransfor
 {
     checkGroup(body, group, "setNodeTargets");
     const std::vector<Vec3>& X = body.m_body.m_model->mesh().restPositions();
-    const auto moved = [&](int node) { return vec3(fromRest * bulletVector(body.m_restOrigin + X[node])); };
+    const auto moved = [&](int node) { return vec3(fromRest * bulletVector(body.m_setUp.m_restOrigin + X[node])); };
     for (int k = 0; k < group.m_count; ++k) checkTarget(group.m_nodes[k], moved(group.m_nodes[k]));
     for (int k = 0; k < group.m_count; ++k) setTarget(body, group.m_nodes[k], moved(group.m_nodes[k]));
 }

@@ -36,9 +36,9 @@ T& find(std::vector<T>& all, int id, const char* kind)
                                 "; give what the function that added it returned");
 }
 
-// Changes a copy of a chamber or cable, validates it, and assigns it.
+// Changes a copy of an actuator, validates it, and assigns it.
 template <class T, class Change>
-void changePull(const FemSoftBody& fem, T& known, const Change& change)
+void changeOne(const FemSoftBody& fem, T& known, const Change& change)
 {
     T changed = known;
     change(changed);
@@ -76,16 +76,26 @@ void changeActiveStress(FemSoftBody& fem, const Change& change)
     }
 }
 
-// Calls call(FEM body) unless the body is not FEM or is being stepped. Exceptions get the caller's name.
+// Validates and appends an actuator that causes stress, and returns its handle.
+template <class T>
+int appendStress(FemSoftBody& fem, std::vector<T> Actuators::*all, const T& added)
+{
+    added.validate(meshOf(fem));
+    int handle = 0;
+    changeActiveStress(fem, [&](Actuators& a) { handle = append(fem, a.*all, added); });
+    return handle;
+}
+
+// Returns call(FEM body) unless the body is not FEM or is being stepped. Exceptions get the caller's name.
 template <class Call>
-void withFem(btFemSoftBodySolver& solver, const btSoftBody* body, const char* caller, const Call& call)
+auto withFem(btFemSoftBodySolver& solver, const btSoftBody* body, const char* caller, const Call& call)
 {
     btFemBodyRecord& record = btFemCoupling::femRecord(solver, body, caller);
     if (record.m_work.m_stage == btFemStage::free || record.m_work.m_stage == btFemStage::solved)
         throw std::invalid_argument(std::string(caller) + ": the body is being stepped; call it between steps");
     try
     {
-        call(record.fem());
+        return call(record.fem());
     }
     catch (const std::invalid_argument& error)
     {
@@ -106,28 +116,26 @@ bool removeFrom(std::vector<T>& all, int id)
 
 int btFemSoftBodySolver::addChamber(btSoftBody* body, const btFemChamber& chamber, std::string* why)
 {
-    int handle = 0;
     const auto add = [&](FemSoftBody& fem)
     {
         Chamber added = coreChamber(chamber);
         added.validate(meshOf(fem));
         added.validateVolume(fem.m_body.m_state.m_x);
-        handle = append(fem, fem.m_body.m_actuators.m_chambers, std::move(added));
+        return append(fem, fem.m_body.m_actuators.m_chambers, std::move(added));
     };
-    attempt(why, [&] { withFem(*this, body, "addChamber", add); });
-    return handle;
+    return attemptValue(why, [&] { return withFem(*this, body, "addChamber", add); });
 }
 
 bool btFemSoftBodySolver::setChamberPressure(btSoftBody* body, int chamber, btScalar pressure, std::string* why)
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        changePull(fem, find(fem.m_body.m_actuators.m_chambers, chamber, "chamber"),
-                   [&](Chamber& c)
-                   {
-                       c.m_isSealed = false;
-                       c.m_pressure = pressure;
-                   });
+        changeOne(fem, find(fem.m_body.m_actuators.m_chambers, chamber, "chamber"),
+                  [&](Chamber& c)
+                  {
+                      c.m_isSealed = false;
+                      c.m_pressure = pressure;
+                  });
     };
     return attempt(why, [&] { withFem(*this, body, "setChamberPressure", set); });
 }
@@ -136,12 +144,12 @@ bool btFemSoftBodySolver::setChamberGas(btSoftBody* body, int chamber, btScalar 
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        changePull(fem, find(fem.m_body.m_actuators.m_chambers, chamber, "chamber"),
-                   [&](Chamber& c)
-                   {
-                       c.m_isSealed = true;
-                       c.m_gas = gas;
-                   });
+        changeOne(fem, find(fem.m_body.m_actuators.m_chambers, chamber, "chamber"),
+                  [&](Chamber& c)
+                  {
+                      c.m_isSealed = true;
+                      c.m_gas = gas;
+                  });
     };
     return attempt(why, [&] { withFem(*this, body, "setChamberGas", set); });
 }
@@ -154,41 +162,39 @@ bool btFemSoftBodySolver::sealChamber(btSoftBody* body, int chamber, std::string
         Chamber& known = find(fem.m_body.m_actuators.m_chambers, chamber, "chamber");
         if (known.m_isSealed) return;
         known.validateVolume(x);
-        changePull(fem, known,
-                   [&](Chamber& c)
-                   {
-                       c.m_isSealed = true;
-                       c.m_gas = (c.m_pressure + c.m_outsidePressure) * c.volume(x);
-                   });
+        changeOne(fem, known,
+                  [&](Chamber& c)
+                  {
+                      c.m_isSealed = true;
+                      c.m_gas = (c.m_pressure + c.m_outsidePressure) * c.volume(x);
+                  });
     };
     return attempt(why, [&] { withFem(*this, body, "sealChamber", seal); });
 }
 
 int btFemSoftBodySolver::addCable(btSoftBody* body, const btFemCable& cable, std::string* why)
 {
-    int handle = 0;
     const auto add = [&](FemSoftBody& fem)
     {
         Cable added = coreCable(cable);
         added.validate(meshOf(fem));
-        handle = append(fem, fem.m_body.m_actuators.m_cables, std::move(added));
+        return append(fem, fem.m_body.m_actuators.m_cables, std::move(added));
     };
-    attempt(why, [&] { withFem(*this, body, "addCable", add); });
-    return handle;
+    return attemptValue(why, [&] { return withFem(*this, body, "addCable", add); });
 }
 
 bool btFemSoftBodySolver::setCableTension(btSoftBody* body, int cable, btScalar tension, std::string* why)
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        changePull(fem, find(fem.m_body.m_actuators.m_cables, cable, "cable"),
-                   [&](Cable& c)
-                   {
-                       if (c.m_stiffness > 0)
-                           throw std::invalid_argument("the cable stretches, with " + std::to_string(c.m_stiffness) +
-                                                       " N/m; call setCableRestLength");
-                       c.m_tension = tension;
-                   });
+        changeOne(fem, find(fem.m_body.m_actuators.m_cables, cable, "cable"),
+                  [&](Cable& c)
+                  {
+                      if (c.m_stiffness > 0)
+                          throw std::invalid_argument("the cable stretches, with " + std::to_string(c.m_stiffness) +
+                                                      " N/m; call setCableRestLength");
+                      c.m_tension = tension;
+                  });
     };
     return attempt(why, [&] { withFem(*this, body, "setCableTension", set); });
 }
@@ -197,7 +203,7 @@ bool btFemSoftBodySolver::setCableRestLength(btSoftBody* body, int cable, btScal
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        changePull(
+        changeOne(
             fem, find(fem.m_body.m_actuators.m_cables, cable, "cable"),
             [&](Cable& c)
             {
@@ -211,48 +217,34 @@ bool btFemSoftBodySolver::setCableRestLength(btSoftBody* body, int cable, btScal
 
 int btFemSoftBodySolver::addFibres(btSoftBody* body, const btFemFibres& fibres, std::string* why)
 {
-    int handle = 0;
-    const auto add = [&](FemSoftBody& fem)
-    {
-        const Fibres added = coreFibres(fibres);
-        added.validate(meshOf(fem));
-        changeActiveStress(fem, [&](Actuators& a) { handle = append(fem, a.m_fibres, added); });
-    };
-    return attempt(why, [&] { withFem(*this, body, "addFibres", add); }) ? handle : 0;
+    const auto add = [&](FemSoftBody& fem) { return appendStress(fem, &Actuators::m_fibres, coreFibres(fibres)); };
+    return attemptValue(why, [&] { return withFem(*this, body, "addFibres", add); });
 }
 
 bool btFemSoftBodySolver::setActivation(btSoftBody* body, int fibres, btScalar activation, std::string* why)
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        Fibres changed = find(fem.m_body.m_actuators.m_fibres, fibres, "fibres");
-        changed.m_activation = activation;
-        changed.validate(meshOf(fem));
-        changeActiveStress(fem, [&](Actuators& a) { find(a.m_fibres, fibres, "fibres").m_activation = activation; });
+        Fibres& known = find(fem.m_body.m_actuators.m_fibres, fibres, "fibres");
+        changeActiveStress(fem,
+                           [&](Actuators&) { changeOne(fem, known, [&](Fibres& c) { c.m_activation = activation; }); });
     };
     return attempt(why, [&] { withFem(*this, body, "setActivation", set); });
 }
 
 int btFemSoftBodySolver::addExpansion(btSoftBody* body, const btFemExpansion& expansion, std::string* why)
 {
-    int handle = 0;
     const auto add = [&](FemSoftBody& fem)
-    {
-        const Expansion added = coreExpansion(expansion);
-        added.validate(meshOf(fem));
-        changeActiveStress(fem, [&](Actuators& a) { handle = append(fem, a.m_expansions, added); });
-    };
-    return attempt(why, [&] { withFem(*this, body, "addExpansion", add); }) ? handle : 0;
+    { return appendStress(fem, &Actuators::m_expansions, coreExpansion(expansion)); };
+    return attemptValue(why, [&] { return withFem(*this, body, "addExpansion", add); });
 }
 
 bool btFemSoftBodySolver::setExpansion(btSoftBody* body, int expansion, btScalar strain, std::string* why)
 {
     const auto set = [&](FemSoftBody& fem)
     {
-        Expansion changed = find(fem.m_body.m_actuators.m_expansions, expansion, "expansion");
-        changed.m_strain = strain;
-        changed.validate(meshOf(fem));
-        changeActiveStress(fem, [&](Actuators& a) { find(a.m_expansions, expansion, "expansion").m_strain = strain; });
+        Expansion& known = find(fem.m_body.m_actuators.m_expansions, expansion, "expansion");
+        changeActiveStress(fem, [&](Actuators&) { changeOne(fem, known, [&](Expansion& c) { c.m_strain = strain; }); });
     };
     return attempt(why, [&] { withFem(*this, body, "setExpansion", set); });
 }

@@ -81,7 +81,7 @@ bool canBecomeFem(const btSoftBody* body, std::string& why)
 RestMesh restMeshNow(const btFemBodyRecord& record)
 {
     if (!record.isFem() || restMatricesChanged(record.fem())) return restMeshOf(*record.m_softBody);
-    return {record.fem().m_body.m_model->mesh(), record.fem().m_restOrigin, true};
+    return {record.fem().m_body.m_model->mesh(), record.fem().m_setUp.m_restOrigin, true};
 }
 
 std::vector<double> massesAtRest(const TetMesh& rest, const btSoftBody& body, const ElementMaterials& materials)
@@ -150,15 +150,15 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
     const auto model = baked ? m_library.modelWithFactor(shape, input, record.m_asked.m_baked->m_model)
                              : m_library.model(shape, input);
     record.m_model.m_fem = std::make_unique<FemSoftBody>(soft, model, m_library.compliance(model));
-    record.fem().m_numericalDamping = m_numericalDamping;
+    record.fem().m_settings.m_numericalDamping = m_numericalDamping;
     record.fem().m_body.m_state.m_mass = input.m_mass;    // the model's may be those of a copy elsewhere,
     record.fem().m_body.m_state.m_fixed = input.m_fixed;  // or of the baking
-    record.fem().m_restOrigin = rest.m_origin;
+    record.fem().m_setUp.m_restOrigin = rest.m_origin;
     record.m_asked.m_definition.reset();
     makeFaces(soft, mesh);
     m_announce(soft);
     keepFaceTree(soft);
-    record.fem().m_contactOffset = record.m_asked.m_contactOffset;
+    record.fem().m_settings.m_contactOffset = record.m_asked.m_contactOffset;
     record.m_model.m_flags =
         flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0) | (record.m_asked.m_baked && !baked ? BT_FEM_BAKED_UNUSED : 0);
     record.m_asked.m_baked.reset();
@@ -185,7 +185,7 @@ void btFemBodySetUp::renew(btFemBodyRecord& record, double step)
     {
         changeRestShape(fem, model, m_library.compliance(model));
         record.m_model.m_hasAskedSurface = false;
-        fem.m_restOrigin = rest.m_origin;
+        fem.m_setUp.m_restOrigin = rest.m_origin;
         record.m_model.m_flags = flagsOf(mesh);
         record.m_model.m_formerModel.reset();
         record.m_model.m_formerCompliance.reset();

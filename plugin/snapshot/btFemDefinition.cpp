@@ -48,7 +48,7 @@ btFemDefinition definitionOf(const btFemBodyRegistry& registry, const btSoftBody
     if (fem)
     {
         d.m_restPositions = record->fem().m_body.m_model->mesh().restPositions();
-        d.m_restOrigin = record->fem().m_restOrigin;
+        d.m_restOrigin = record->fem().m_setUp.m_restOrigin;
         d.m_mass = record->fem().m_body.m_state.m_mass;
         return d;
     }

@@ -108,7 +108,7 @@ Contact& append(btAlignedObjectArray<Contact>& contacts)
 
 void makeRoomForBulletContacts(const btFemBodyRecord& record)
 {
-    if (record.fem().m_contacts.empty()) return;
+    if (record.fem().m_memory.m_contacts.empty()) return;
     record.m_softBody->m_rcontacts.reserve(record.m_reports.m_contacts.capacity());
     record.m_softBody->m_faceRigidContacts.reserve(record.m_reports.m_contacts.capacity());
 }
@@ -117,7 +117,8 @@ void writeBulletContacts(btFemBodyRecord& record, WorldObjects& world)
 {
     btSoftBody& soft = *record.m_softBody;
     clearBulletContacts(soft);
-    const int rigid = std::min(static_cast<int>(record.fem().m_contacts.size()), record.m_reports.m_contacts.size());
+    const int rigid =
+        std::min(static_cast<int>(record.fem().m_memory.m_contacts.size()), record.m_reports.m_contacts.size());
     if (rigid == 0) return;
     refresh(record.m_model.m_faceIndex, soft, record.fem().m_body.m_model->mesh());
     for (int k = 0; k < rigid; ++k)  // contacts with soft bodies follow

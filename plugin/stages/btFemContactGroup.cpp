@@ -86,8 +86,8 @@ void btFemContactGroup::collect(const Scope& scope)
     {
         FemSoftBody& fem = record->fem();
         m_bodies.push_back(&fem);
-        m_problem.m_bodies.push_back(
-            {&fem.m_body, fem.m_compliance.get(), fem.m_predicted.empty() ? nullptr : &fem.m_predicted});
+        m_problem.m_bodies.push_back({&fem.m_body, fem.m_compliance.get(),
+                                      fem.m_memory.m_predicted.empty() ? nullptr : &fem.m_memory.m_predicted});
     }
     collectJoints(scope);  // first: joints decide whether the rigid bodies that they hold are rewound
     for (FemSoftBody* fem : m_bodies) fem->holdForSearches(true);
@@ -153,27 +153,27 @@ void btFemContactGroup::findCloth()
 void btFemContactGroup::collectContacts()
 {
     m_firstRigid.assign(1, 0);
-    for (const FemSoftBody* fem : m_bodies) m_firstRigid.push_back(m_firstRigid.back() + fem->m_contacts.size());
+    for (const FemSoftBody* fem : m_bodies)
+        m_firstRigid.push_back(m_firstRigid.back() + fem->m_memory.m_contacts.size());
     const std::vector<ContactPoint>& soft = m_softPairs.contacts();
     std::vector<ContactPoint>& contacts = m_problem.m_contacts;
     contacts.resize(m_firstRigid.back() + soft.size());
     const auto place = [&contacts](std::size_t k) { return contacts.begin() + static_cast<std::ptrdiff_t>(k); };
     const int bodies = static_cast<int>(m_bodies.size());
     const Chunks pieces(static_cast<int>(soft.size()), kContactsPerChunk);
-    m_settings.m_step.m_threads->run(bodies + pieces.count(),
-                                     [&](int k)
-                                     {
-                                         if (k < bodies)
-                                         {
-                                             alignLinks(m_bodies[k]->m_contacts);
-                                             std::copy(m_bodies[k]->m_contacts.begin(), m_bodies[k]->m_contacts.end(),
-                                                       place(m_firstRigid[k]));
-                                             return;
-                                         }
-                                         const Range piece = pieces[k - bodies];
-                                         std::copy(soft.begin() + piece.m_begin, soft.begin() + piece.m_end,
-                                                   place(m_firstRigid.back() + piece.m_begin));
-                                     });
+    const auto copy = [&](int k)
+    {
+        if (k < bodies)
+        {
+            std::vector<ContactPoint>& own = m_bodies[k]->m_memory.m_contacts;
+            alignLinks(own);
+            std::copy(own.begin(), own.end(), place(m_firstRigid[k]));
+            return;
+        }
+        const Range piece = pieces[k - bodies];
+        std::copy(soft.begin() + piece.m_begin, soft.begin() + piece.m_end, place(m_firstRigid.back() + piece.m_begin));
+    };
+    m_settings.m_step.m_threads->run(bodies + pieces.count(), copy);
 }
 
 void btFemContactGroup::listOverlaps()
@@ -288,7 +288,7 @@ void btFemContactGroup::moveRigid()
 
 void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& records, WorldObjects& world, double step)
 {
-    const auto hasImpacts = [](const btFemBodyRecord* record) { return !record->fem().m_impacts.empty(); };
+    const auto hasImpacts = [](const btFemBodyRecord* record) { return !record->fem().m_memory.m_impacts.empty(); };
     if (std::none_of(records.begin(), records.end(), hasImpacts)) return;
     m_bodies.clear();
     for (btFemBodyRecord* record : records) m_bodies.push_back(&record->fem());
@@ -350,9 +350,9 @@ void btFemContactGroup::makeRoomForReports()
 void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
 {
     btFemBodyRecord& record = *m_records[b];
-    FemSoftBody& fem = record.fem();
-    std::copy_n(m_problem.m_contacts.begin() + static_cast<std::ptrdiff_t>(m_firstRigid[b]), fem.m_contacts.size(),
-                fem.m_contacts.begin());
+    ContactMemory& memory = record.fem().m_memory;
+    std::copy_n(m_problem.m_contacts.begin() + static_cast<std::ptrdiff_t>(m_firstRigid[b]), memory.m_contacts.size(),
+                memory.m_contacts.begin());
     record.m_reports.m_contacts.resize(0);
     record.m_reports.m_step.m_contactMs = static_cast<btScalar>(m_milliseconds);
     record.m_reports.m_step.m_contactSweeps = report.m_sweeps;
@@ -360,14 +360,14 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
     record.m_reports.m_step.m_contactViolation = static_cast<btScalar>(report.m_violation);
     record.m_reports.m_step.m_deepestPenetration = 0;
     if (!report.m_converged) record.m_reports.m_step.m_flags |= BT_FEM_NOT_CONVERGED;
-    for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
+    for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
     {
         btFemContact contact;
-        fill(contact, fem.m_contacts[k], false);
-        contact.m_other = fem.m_origins[k].m_object;
-        contact.m_part = fem.m_origins[k].m_part;
-        contact.m_index = fem.m_origins[k].m_triangle;
-        noteContact(record.m_reports, contact, fem.m_contacts[k]);
+        fill(contact, memory.m_contacts[k], false);
+        contact.m_other = memory.m_origins[k].m_object;
+        contact.m_part = memory.m_origins[k].m_part;
+        contact.m_index = memory.m_origins[k].m_triangle;
+        noteContact(record.m_reports, contact, memory.m_contacts[k]);
     }
     // Both bodies report a contact between them, each from its side; self contact is reported once.
     for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)

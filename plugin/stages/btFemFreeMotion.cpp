@@ -176,8 +176,8 @@ FreeMotion btFemFreeMotion::motionOf(btFemBodyRecord& record) const
     FreeMotion motion;
     motion.m_body = &record.fem().m_body;
     motion.m_settings = settingsOf(record);
-    if (fem.m_predicted.empty()) return motion;
-    motion.m_predicted = &fem.m_predicted;
+    if (fem.m_memory.m_predicted.empty()) return motion;
+    motion.m_predicted = &fem.m_memory.m_predicted;
     motion.m_predictedFloor = residualFloor(m_info.m_contactTolerance, m_info.m_tolerance);
     return motion;
 }

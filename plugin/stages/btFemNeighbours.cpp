@@ -101,7 +101,7 @@ btFemNeighbour neighbourOf(const btFemBodyRecord& record, const btCollisionObjec
 void recordBounds(btFemBodyRecord& record)
 {
     const FemSoftBody& fem = record.fem();
-    const double reach = fem.m_contactOffset + kReach * fem.m_body.m_model->mesh().meanEdgeLength();
+    const double reach = fem.m_settings.m_contactOffset + kReach * fem.m_body.m_model->mesh().meanEdgeLength();
     Vec3 low = vec3(fem.m_softBody->m_nodes[0].m_x), high = low;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
         for (int c = 0; c < 3; ++c)

@@ -60,11 +60,11 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
     if (present) ageTouches(record);
     if (record.isFem())
     {
-        record.fem().m_overlapping.clear();
-        record.fem().m_overlappingSoft.clear();
+        record.fem().m_overlaps.m_rigid.clear();
+        record.fem().m_overlaps.m_soft.clear();
     }
     const bool isActive = record.m_softBody->isActive();
-    if (record.isFem() && !isActive) record.fem().m_impacts.clear();
+    if (record.isFem() && !isActive) record.fem().m_memory.m_impacts.clear();
     if (!present || record.m_model.m_rejected || (record.isFem() && !isActive)) return false;
     const double step = bodyStep(record, worldStep);
     if (!isUsableStep(step)) return false;

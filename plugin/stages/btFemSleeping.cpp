@@ -128,7 +128,7 @@ btFemInfluences influencesOn(const FemSoftBody& fem)
             double(soft.m_deformableAnchors.size()),
             double(soft.m_joints.size()),
             double(fem.m_joints.m_attachments.size() + fem.m_joints.m_clothAttachments.size()),
-            fem.m_contactOffset};
+            fem.m_settings.m_contactOffset};
 }
 
 // True if an influence on the body has changed since the end of the last step.
@@ -258,7 +258,7 @@ void wakeIfPushed(const btFemBodyRecord& record, const btCollisionObject& other)
     const bool moves =
         !other.getInterpolationLinearVelocity().isZero() || !other.getInterpolationAngularVelocity().isZero();
     if (!moves || !other.isKinematicObject() || !other.isActive()) return;
-    const std::lock_guard<std::mutex> lock(record.fem().m_overlapMutex);
+    const std::lock_guard<std::mutex> lock(record.fem().m_overlaps.m_mutex);
     if (isQuiet(record)) record.m_softBody->activate();
 }
 

@@ -29,18 +29,18 @@ protected:
 
     const std::vector<ContactPoint>& find(const btCollisionObject& object, int most = 1000)
     {
-        m_fem.m_overlapping.clear();
+        m_fem.m_overlaps.m_rigid.clear();
         recordOverlap(m_fem, object);
         solveFreeMotion(m_fem.m_body, StepSettings());
         m_rigidProxies.clear();
         m_search.find({&m_fem}, kStep, most, m_rigidProxies);
         m_report = m_search.reports().front();
-        return m_fem.m_contacts;
+        return m_fem.m_memory.m_contacts;
     }
 
     std::vector<ContactPoint>::const_iterator deepest() const
     {
-        return std::min_element(m_fem.m_contacts.begin(), m_fem.m_contacts.end(),
+        return std::min_element(m_fem.m_memory.m_contacts.begin(), m_fem.m_memory.m_contacts.end(),
                                 [](const auto& a, const auto& b) { return a.m_gap < b.m_gap; });
     }
 

@@ -135,7 +135,7 @@ TEST_F(ContactFinderTest, ActiveNearestPointYieldsToNearlyAsCloseFixedPoints)
     ASSERT_TRUE(hasNearest(find(kFar)));
     EXPECT_FALSE(hasNearest(find(kNear))) << "it did not push";
     ASSERT_TRUE(hasNearest(find(kFar)));
-    for (ContactPoint& c : m_fem.m_contacts) c.m_impulse = isNearest(c) ? c.m_normal : Vec3();
+    for (ContactPoint& c : m_fem.m_memory.m_contacts) c.m_impulse = isNearest(c) ? c.m_normal : Vec3();
     EXPECT_TRUE(hasNearest(find(kNear)));
     EXPECT_FALSE(hasNearest(find(kNext)));
 }
@@ -153,7 +153,7 @@ TEST_F(ContactFinderTest, LoadOfAnActiveNearestPointFollowsSlowly)
     const auto pushDeepest = [this]
     {
         const ContactPoint* const pushed = &*deepest();
-        for (ContactPoint& c : m_fem.m_contacts) c.m_impulse = &c == pushed ? c.m_normal : Vec3();
+        for (ContactPoint& c : m_fem.m_memory.m_contacts) c.m_impulse = &c == pushed ? c.m_normal : Vec3();
     };
     constexpr double kAside = 0.01, kFar = 0.11;  // mean edges are .6 m
     EXPECT_NEAR(findNearest(0), 0, 1e-6);
@@ -177,23 +177,24 @@ TEST_F(ContactFinderTest, CurvedShapeContactsFixedSurfacePoints)
     for (const ContactPoint& c : find(m_ball))
         for (double w : c.m_soft.m_weights)
             EXPECT_TRUE(w == 0 || w == 0.5 || w == 1 || std::abs(w - 1.0 / 3) < 1e-12) << w;
-    EXPECT_GT(m_fem.m_contacts.size(), 9u);
+    EXPECT_GT(m_fem.m_memory.m_contacts.size(), 9u);
 }
 
 TEST_F(ContactFinderTest, TheOffsetIsTakenOffTheGap)
 {
-    m_fem.m_contactOffset = 0.02;
+    m_fem.m_settings.m_contactOffset = 0.02;
     ASSERT_EQ(find(m_ground).size(), 9u);
-    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts) EXPECT_NEAR(c.m_gap, -0.02, 1e-12);
 }
 
 TEST_F(ContactFinderTest, ImpulsesOfTheLastStepAreTakenOver)
 {
     ASSERT_EQ(find(m_ground).size(), 9u);
-    m_fem.m_contacts[4].m_impulse = {1, 2, 3};
-    const int node = m_fem.m_contacts[4].m_soft.m_nodes[0];
+    m_fem.m_memory.m_contacts[4].m_impulse = {1, 2, 3};
+    const int node = m_fem.m_memory.m_contacts[4].m_soft.m_nodes[0];
     ASSERT_EQ(find(m_ground).size(), 9u);
-    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts)
+        EXPECT_EQ(c.m_impulse.y, c.m_soft.m_nodes[0] == node ? 2 : 0);
 }
 
 TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
@@ -208,19 +209,20 @@ TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
     const int nodes = m_fem.m_body.m_model->nodeCount();
     const int edges = static_cast<int>(m_fem.m_surface.features().m_edges.size());
     ASSERT_GT(
-        std::count_if(m_fem.m_origins.begin(), m_fem.m_origins.end(),
+        std::count_if(m_fem.m_memory.m_origins.begin(), m_fem.m_memory.m_origins.end(),
                       [=](const ContactOrigin& o) { return o.m_feature >= nodes && o.m_feature < nodes + 2 * edges; }),
         5);
-    EXPECT_TRUE(std::is_sorted(m_fem.m_origins.begin(), m_fem.m_origins.end()));
+    EXPECT_TRUE(std::is_sorted(m_fem.m_memory.m_origins.begin(), m_fem.m_memory.m_origins.end()));
     for (std::size_t k = 0; k < count; ++k)
     {
-        m_fem.m_contacts[k].m_impulse = {1, 2.0 + k, 3};
-        m_fem.m_contacts[k].m_slip = {2.0 + k, 0, 0};
+        m_fem.m_memory.m_contacts[k].m_impulse = {1, 2.0 + k, 3};
+        m_fem.m_memory.m_contacts[k].m_slip = {2.0 + k, 0, 0};
     }
     ASSERT_EQ(find(m_ball).size(), count);
     std::size_t found = 0;
     for (std::size_t k = 0; k < count; ++k)
-        found += m_fem.m_contacts[k].m_impulse.y == 2.0 + k && m_fem.m_contacts[k].m_slip.x == 2.0 + k;
+        found +=
+            m_fem.m_memory.m_contacts[k].m_impulse.y == 2.0 + k && m_fem.m_memory.m_contacts[k].m_slip.x == 2.0 + k;
     EXPECT_EQ(found, count);
 }
 
@@ -270,10 +272,10 @@ TEST_F(ContactFinderTest, ThreadedSearchEqualsSearchBodyByBody)
     ASSERT_EQ(search.reports().size(), bodies.size());
     for (int b = 0; b < kCount; ++b)
     {
-        const std::vector<ContactPoint> together = bodies[b]->m_contacts;
+        const std::vector<ContactPoint> together = bodies[b]->m_memory.m_contacts;
         m_rigidProxies.clear();
         m_search.find({bodies[b]}, kStep, 1000, m_rigidProxies);
-        const std::vector<ContactPoint>& alone = bodies[b]->m_contacts;
+        const std::vector<ContactPoint>& alone = bodies[b]->m_memory.m_contacts;
         EXPECT_GE(alone.size(), b % 3 == 0 ? 18u : 9u);
         ASSERT_EQ(together.size(), alone.size());
         for (std::size_t k = 0; k < alone.size(); ++k)
@@ -296,8 +298,8 @@ TEST_F(ContactFinderTest, ObjectsRecordedByManyThreadsAreFoundOnce)
                 for (const btCollisionObject& object : objects) recordOverlap(m_fem, object);
             });
     for (std::thread& thread : threads) thread.join();
-    EXPECT_EQ(m_fem.m_overlapping.size(), objects.size());
-    m_fem.m_overlapping.clear();
+    EXPECT_EQ(m_fem.m_overlaps.m_rigid.size(), objects.size());
+    m_fem.m_overlaps.m_rigid.clear();
 }
 
 }  // namespace

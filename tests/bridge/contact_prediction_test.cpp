@@ -29,8 +29,8 @@ protected:
 
     void rest(double share)
     {
-        m_fem.m_contacts.assign(1, ContactPoint());
-        m_fem.m_contacts[0].m_impulse = {0, 0, share * m_weight};
+        m_fem.m_memory.m_contacts.assign(1, ContactPoint());
+        m_fem.m_memory.m_contacts[0].m_impulse = {0, 0, share * m_weight};
     }
 
     // Rests on another soft body.
@@ -52,7 +52,7 @@ protected:
         ContactPrediction steady;
         steady.sumImpulses({&m_fem}, m_memory, Threads());
         ContactPrediction::accept(m_fem, kStep);
-        return !m_fem.m_predicted.empty();
+        return !m_fem.m_memory.m_predicted.empty();
     }
 
     TestBox m_box;
@@ -107,31 +107,31 @@ TEST_F(ContactPredictionTest, RigidlyMovingBodyIsSteady)
 // A jammed body: its motion depends on small differences of large impulses.
 TEST_F(ContactPredictionTest, BodyCarryingManyTimesItsLoadsIsNotSteady)
 {
-    m_fem.m_contacts.assign(3, ContactPoint());
-    m_fem.m_contacts[0].m_impulse = {0, 0, m_weight};
-    m_fem.m_contacts[1].m_soft.m_nodes = {1, 1, 1};
-    m_fem.m_contacts[1].m_impulse = {14 * m_weight, 0, 0};
-    m_fem.m_contacts[2].m_soft.m_nodes = {2, 2, 2};
-    m_fem.m_contacts[2].m_impulse = {-14 * m_weight, 0, 0};
+    m_fem.m_memory.m_contacts.assign(3, ContactPoint());
+    m_fem.m_memory.m_contacts[0].m_impulse = {0, 0, m_weight};
+    m_fem.m_memory.m_contacts[1].m_soft.m_nodes = {1, 1, 1};
+    m_fem.m_memory.m_contacts[1].m_impulse = {14 * m_weight, 0, 0};
+    m_fem.m_memory.m_contacts[2].m_soft.m_nodes = {2, 2, 2};
+    m_fem.m_memory.m_contacts[2].m_impulse = {-14 * m_weight, 0, 0};
     EXPECT_TRUE(isSteady());
-    m_fem.m_contacts[1].m_impulse.x = 15 * m_weight;
-    m_fem.m_contacts[2].m_impulse.x = -15 * m_weight;
+    m_fem.m_memory.m_contacts[1].m_impulse.x = 15 * m_weight;
+    m_fem.m_memory.m_contacts[2].m_impulse.x = -15 * m_weight;
     EXPECT_FALSE(isSteady());
 }
 
 TEST_F(ContactPredictionTest, PredictsNodeImpulsesOfTheLastStep)
 {
     rest(0.5);
-    m_fem.m_contacts[0].m_soft.m_nodes = {3, 4, 3};
-    m_fem.m_contacts[0].m_soft.m_weights = {0.5, 0.3, 0.2};
+    m_fem.m_memory.m_contacts[0].m_soft.m_nodes = {3, 4, 3};
+    m_fem.m_memory.m_contacts[0].m_soft.m_weights = {0.5, 0.3, 0.2};
     restOnSoft(SoftPairKind::nodeOfSecond, -0.5 * m_weight);
     ASSERT_TRUE(isSteady());
     Vec3 sum;
-    for (const Vec3& impulse : m_fem.m_predicted) sum += impulse;
+    for (const Vec3& impulse : m_fem.m_memory.m_predicted) sum += impulse;
     EXPECT_NEAR(sum.z, m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_predicted[3].z, 0.35 * m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_predicted[4].z, 0.15 * m_weight, 1e-12);
-    EXPECT_NEAR(m_fem.m_predicted[0].z, 0.5 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_memory.m_predicted[3].z, 0.35 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_memory.m_predicted[4].z, 0.15 * m_weight, 1e-12);
+    EXPECT_NEAR(m_fem.m_memory.m_predicted[0].z, 0.5 * m_weight, 1e-12);
 }
 
 // The state after a new attachment or a new setup, when contacts may belong to other nodes.

@@ -38,9 +38,9 @@ protected:
     /// Each of the nine lower nodes has exactly one contact with this normal and gap, and there are no others.
     void expectFlat(const Vec3& normal, double gap)
     {
-        EXPECT_EQ(m_fem.m_contacts.size(), 9u);
+        EXPECT_EQ(m_fem.m_memory.m_contacts.size(), 9u);
         int lastNode = -1;
-        for (const ContactPoint& c : m_fem.m_contacts)
+        for (const ContactPoint& c : m_fem.m_memory.m_contacts)
         {
             EXPECT_GT(c.m_soft.m_nodes[0], lastNode) << "one a node";
             lastNode = c.m_soft.m_nodes[0];
@@ -74,7 +74,7 @@ TEST_P(FlatSheetTest, EveryNodeHasOneContactWithTheNormalOfThePlane)
         find(m_sheet, m_atZero);
         expectFlat({0, 0, 1}, z);
         move({0, 0, -z});
-        m_fem.m_sheetSides.clear();
+        m_fem.m_memory.m_sheetSides.clear();
     }
     EXPECT_FALSE(m_report.m_unknownShape);
 }
@@ -141,19 +141,19 @@ TEST_P(FlatSheetTest, FastBodyIsStoppedAtTheSheet)
         move({0, 0, 0.9 * speed * kStep});
         setVelocity({0, 0, -speed});
         find(m_sheet, m_atZero);
-        EXPECT_GE(m_fem.m_contacts.size(), 9u);
-        for (int i = 0; i < 9; ++i) EXPECT_NEAR(m_fem.m_contacts[i].m_gap, 0.9 * speed * kStep, 1e-6 * speed);
+        EXPECT_GE(m_fem.m_memory.m_contacts.size(), 9u);
+        for (int i = 0; i < 9; ++i) EXPECT_NEAR(m_fem.m_memory.m_contacts[i].m_gap, 0.9 * speed * kStep, 1e-6 * speed);
         setVelocity({0, 0, speed});
         EXPECT_TRUE(find(m_sheet, m_atZero).empty());
         move({0, 0, -0.9 * speed * kStep});
-        m_fem.m_sheetSides.clear();
+        m_fem.m_memory.m_sheetSides.clear();
     }
 }
 
 TEST_P(FlatSheetTest, TheContactOffsetAndTheMarginAreTakenOffTheGap)
 {
     static_cast<btConcaveShape&>(*m_sheet.m_parts.front()).setMargin(btScalar(0.03125));
-    m_fem.m_contactOffset = 0.0625;
+    m_fem.m_settings.m_contactOffset = 0.0625;
     find(m_sheet, m_atZero);
     const double scaledHasItsOwn = GetParam().m_name == "scaledMesh" ? 0 : 0.03125;
     expectFlat({0, 0, 1}, -0.0625 - scaledHasItsOwn);
@@ -180,8 +180,8 @@ TEST_F(SheetContactTest, RotatingKinematicSheetMovesAlongAnArc)
     m_ground.setWorldTransform(
         btTransform(btQuaternion(btVector3(1, 0, 0), btScalar(turn)), btVector3(0, 0, btScalar(height))));
     find(m_ground);
-    ASSERT_EQ(m_fem.m_contacts.size(), 9u);
-    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_gap, -height * (1 - std::cos(turn)), 5e-5);
+    ASSERT_EQ(m_fem.m_memory.m_contacts.size(), 9u);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts) EXPECT_NEAR(c.m_gap, -height * (1 - std::cos(turn)), 5e-5);
 }
 
 TEST_F(SheetContactTest, ACornerHasOneContactAFace)
@@ -196,11 +196,11 @@ TEST_F(SheetContactTest, ACornerHasOneContactAFace)
     shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
     move({0.001, 0.3, 0.001});
     find(shape);
-    EXPECT_EQ(m_fem.m_contacts.size(), 18u);
+    EXPECT_EQ(m_fem.m_memory.m_contacts.size(), 18u);
     move({-0.002, 0.01, -0.002});
     find(shape);
-    EXPECT_EQ(m_fem.m_contacts.size(), 18u);
-    for (const ContactPoint& c : m_fem.m_contacts)
+    EXPECT_EQ(m_fem.m_memory.m_contacts.size(), 18u);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts)
     {
         EXPECT_NEAR(c.m_gap, -0.001, 1e-7);
         EXPECT_NEAR(norm(c.m_normal - Vec3{1, 0, 0}) * norm(c.m_normal - Vec3{0, 0, 1}), 0, 1e-12);
@@ -226,8 +226,8 @@ TEST_F(SheetContactTest, RidgeBetweenNodesContactsTheEdgesAcross)
     {
         const ConcaveShape roof = makeRoof(slope, btScalar(0.25));
         find(roof, btScalar(0.001));
-        EXPECT_GE(m_fem.m_contacts.size(), 5u) << "three edges across and the diagonals";
-        for (const ContactPoint& c : m_fem.m_contacts)
+        EXPECT_GE(m_fem.m_memory.m_contacts.size(), 5u) << "three edges across and the diagonals";
+        for (const ContactPoint& c : m_fem.m_memory.m_contacts)
         {
             EXPECT_NEAR(norm(c.m_normal - Vec3{0, 0, 1}), 0, 1e-9);
             EXPECT_NEAR(c.m_gap, -0.001, 1e-7);
@@ -240,8 +240,8 @@ TEST_F(SheetContactTest, NodeAboveARidgeContactsIt)
 {
     const ConcaveShape roof = makeRoof(2, btScalar(0.5));
     find(roof, btScalar(-0.001));
-    EXPECT_EQ(m_fem.m_contacts.size(), 3u);
-    for (const ContactPoint& c : m_fem.m_contacts)
+    EXPECT_EQ(m_fem.m_memory.m_contacts.size(), 3u);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts)
     {
         EXPECT_NEAR(norm(c.m_normal - Vec3{0, 0, 1}), 0, 1e-9);
         EXPECT_NEAR(c.m_gap, 0.001, 1e-7);
@@ -259,12 +259,12 @@ TEST_F(SheetContactTest, ThinSpikeContactsTheTriangleOnItsTip)
     addGrid(*shape.m_mesh, {10, 2, true, [](btScalar, btScalar) { return btScalar(-1); }});
     shape.make<btBvhTriangleMeshShape>(shape.m_mesh.get(), true);
     find(shape);
-    ASSERT_EQ(m_fem.m_contacts.size(), 1u);
-    const ContactPoint& c = m_fem.m_contacts[0];
+    ASSERT_EQ(m_fem.m_memory.m_contacts.size(), 1u);
+    const ContactPoint& c = m_fem.m_memory.m_contacts[0];
     EXPECT_NEAR(c.m_gap, -0.002, 1e-7);
     EXPECT_NEAR(norm(c.m_normal - Vec3{0, 0, 1}), 0, 1e-9);
     EXPECT_NEAR(norm(c.m_point - Vec3{0.3, 0.35, 0}), 0, 1e-6);
-    EXPECT_GE(m_fem.m_origins[0].m_triangle, 0);
+    EXPECT_GE(m_fem.m_memory.m_origins[0].m_triangle, 0);
 }
 
 TEST_F(SheetContactTest, BodyHittingASlopeSidewaysIsStoppedOrBroughtBack)
@@ -278,7 +278,7 @@ TEST_F(SheetContactTest, BodyHittingASlopeSidewaysIsStoppedOrBroughtBack)
     setVelocity({60, 0, 0});  // 1 m a step along the floor, and 0.25 m into the slope
     find(shape);
     const auto blocks = [](const ContactPoint& c) { return c.m_normal.x < -0.1; };
-    EXPECT_TRUE(std::any_of(m_fem.m_contacts.begin(), m_fem.m_contacts.end(), blocks));
+    EXPECT_TRUE(std::any_of(m_fem.m_memory.m_contacts.begin(), m_fem.m_memory.m_contacts.end(), blocks));
     move({1, 0, 0});
     find(shape);
     EXPECT_NEAR(deepest()->m_normal.z, std::cos(std::atan(0.5)), 1e-6);
@@ -297,8 +297,8 @@ TEST_F(SheetContactTest, SlippingOffAThinEdgeIsNotHeldByTheFaceBehind)
     move({0, 0, 0.001});
     setVelocity({30, 0, 0});
     find(shape);
-    EXPECT_EQ(m_fem.m_contacts.size(), 6u);
-    for (const ContactPoint& c : m_fem.m_contacts) EXPECT_NEAR(c.m_normal.z, 1, 1e-9);
+    EXPECT_EQ(m_fem.m_memory.m_contacts.size(), 6u);
+    for (const ContactPoint& c : m_fem.m_memory.m_contacts) EXPECT_NEAR(c.m_normal.z, 1, 1e-9);
 }
 
 TEST_F(SheetContactTest, DegenerateTrianglesAreOmitted)
@@ -324,7 +324,7 @@ TEST_F(SheetContactTest, DegenerateTrianglesAreOmitted)
     field.setLocalScaling({4, 4, 1});
     m_ground.setCollisionShape(&field);
     for (const ContactPoint& c : find(m_ground)) EXPECT_TRUE(isFinite(c.m_normal) && std::isfinite(c.m_gap));
-    EXPECT_FALSE(m_fem.m_contacts.empty());
+    EXPECT_FALSE(m_fem.m_memory.m_contacts.empty());
 }
 
 TEST_F(SheetContactTest, EmptyMeshMakesNoContact)

@@ -240,7 +240,7 @@ TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
     upper.m_soft->setRestitution(btScalar(0.5));
     lower.m_soft->setRestitution(btScalar(0.25));
     upper.m_soft->m_cfg.kSHR = btScalar(0.5);
-    upper.m_fem.m_contactOffset = 0.01;
+    upper.m_fem.m_settings.m_contactOffset = 0.01;
     const PairContacts found(upper, lower);
     ASSERT_FALSE(found.m_contacts.empty());
     for (const ContactPoint& c : found.m_contacts)

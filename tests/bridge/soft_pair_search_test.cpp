@@ -22,7 +22,7 @@ class SoftPairSearchTest : public testing::Test
 protected:
     explicit SoftPairSearchTest(int cellsOfUpper = 2) : m_upper(cube(cellsOfUpper))
     {
-        m_upper.m_fem.m_overlappingSoft.push_back(m_lower.m_soft.get());
+        m_upper.m_fem.m_overlaps.m_soft.push_back(m_lower.m_soft.get());
         moveUpper({0, 0, 1});
     }
 
@@ -170,9 +170,9 @@ TEST_F(SoftPairSearchTest, UnsolvedPairIsSearchedAgain)
 TEST_F(SoftPairSearchTest, PreviouslySeparatePairIsSearched)
 {
     searched();
-    m_upper.m_fem.m_overlappingSoft.clear();
+    m_upper.m_fem.m_overlaps.m_soft.clear();
     EXPECT_EQ(searched(), 0);
-    m_upper.m_fem.m_overlappingSoft.push_back(m_lower.m_soft.get());
+    m_upper.m_fem.m_overlaps.m_soft.push_back(m_lower.m_soft.get());
     EXPECT_EQ(searched(), 1);
 }
 

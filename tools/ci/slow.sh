@@ -12,7 +12,7 @@ covers=(
     "bulletfem_contact_slow_test ^(fem/contact|bullet_bridge/(contact|geometry|rigid)|include/bullet_fem/fem/contact)/"
     "bulletfem_motion_slow_test ^(fem/(body|batch|solve|step)|include/bullet_fem/fem/(body|batch|step))/"
     "bulletfem_snapshot_test snapshot"
-    "bulletfem_stack_test ^(plugin/(stages|coupling|btFem)|bullet_bridge/joints)"
+    "bulletfem_stack_test ^(plugin/(stages|coupling|world)|bullet_bridge/joints)"
     "bulletfem_examples_test ^(fem/(elements|factor|mesh|common)|bullet_bridge/body|include/bullet_fem/btFem)"
     "bulletfem_demo_scenes_test ^(demos|tools/scene)/"
     "bulletfem_random_program_test ^(plugin|bullet_bridge|include)/"

@@ -165,7 +165,7 @@ void ClothContacts::search(const FemSoftBody& fem, int maxContacts, Search& sear
 {
     if (!m_isUsable[search.m_surface]) return;
     const ClothSurface& cloth = *m_surfaces[search.m_surface];
-    const double thickness = cloth.thickness() + fem.m_contactOffset;
+    const double thickness = cloth.thickness() + fem.m_settings.m_contactOffset;
     ClothContactSearch(fem.m_surface, cloth, thickness, kClothBand * fem.m_surface.meanEdge()).find(search.m_touches);
     search.m_limited = static_cast<int>(search.m_touches.size()) > maxContacts;
     if (search.m_limited) keepNearestTouches(maxContacts, search.m_touches, search.m_order);

@@ -43,8 +43,8 @@ Triangle cornersOf(const FemSoftBody& fem, const ContactTarget& target, int feat
 bool areOverOneFace(const FemSoftBody& fem, int a, int b)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return fem.m_nodeGap[a] < kInfinity && fem.m_nodeGap[b] < kInfinity &&
-           dot(fem.m_nodeNormal[a], fem.m_nodeNormal[b]) > 1 - 1e-9;
+    return fem.m_search.m_nodeGap[a] < kInfinity && fem.m_search.m_nodeGap[b] < kInfinity &&
+           dot(fem.m_search.m_nodeNormal[a], fem.m_search.m_nodeNormal[b]) > 1 - 1e-9;
 }
 
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
@@ -73,8 +73,9 @@ ContactOrigin originOf(const ContactTarget& target, int feature)
 
 const ContactPoint* pushingContact(const FemSoftBody& fem, const ContactOrigin& origin)
 {
-    const auto [first, last] = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origin);
-    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_contacts[&old - fem.m_origins.data()]; };
+    const std::vector<ContactOrigin>& origins = fem.m_memory.m_origins;
+    const auto [first, last] = std::equal_range(origins.begin(), origins.end(), origin);
+    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_memory.m_contacts[&old - origins.data()]; };
     const auto found = std::find_if(first, last, [&](const ContactOrigin& old) { return isPushing(*contactOf(old)); });
     return found == last ? nullptr : contactOf(*found);
 }

@@ -11,18 +11,26 @@
 namespace bullet_fem
 {
 
+namespace
+{
+
+template <class Object>
+void record(const Object& object, std::mutex& mutex, std::vector<const Object*>& overlapping)
+{
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (std::find(overlapping.begin(), overlapping.end(), &object) == overlapping.end()) overlapping.push_back(&object);
+}
+
+}  // namespace
+
 void recordOverlap(FemSoftBody& fem, const btCollisionObject& object)
 {
-    const std::lock_guard<std::mutex> lock(fem.m_overlapMutex);
-    if (std::find(fem.m_overlapping.begin(), fem.m_overlapping.end(), &object) == fem.m_overlapping.end())
-        fem.m_overlapping.push_back(&object);
+    record(object, fem.m_overlaps.m_mutex, fem.m_overlaps.m_rigid);
 }
 
 void recordOverlap(FemSoftBody& fem, const btSoftBody& other)
 {
-    const std::lock_guard<std::mutex> lock(fem.m_overlapMutex);
-    if (std::find(fem.m_overlappingSoft.begin(), fem.m_overlappingSoft.end(), &other) == fem.m_overlappingSoft.end())
-        fem.m_overlappingSoft.push_back(&other);
+    record(other, fem.m_overlaps.m_mutex, fem.m_overlaps.m_soft);
 }
 
 ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around)
@@ -43,9 +51,9 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     thin(around);
     report.m_limited = keepNearest(around.m_maxContacts, m_found.points(), m_found.origins(), m_order);
     m_matcher.transferImpulses(m_scope, m_found);
-    fem.m_contacts.assign(m_found.points().begin(), m_found.points().end());
-    fem.m_origins.assign(m_found.origins().begin(), m_found.origins().end());
-    fem.m_sheetSides.assign(m_sheets.sides().begin(), m_sheets.sides().end());
+    fem.m_memory.m_contacts.assign(m_found.points().begin(), m_found.points().end());
+    fem.m_memory.m_origins.assign(m_found.origins().begin(), m_found.origins().end());
+    fem.m_memory.m_sheetSides.assign(m_sheets.sides().begin(), m_sheets.sides().end());
     return report;
 }
 

@@ -111,9 +111,9 @@ Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, int node, co
     const double infinite = std::numeric_limits<double>::infinity();
     const bool canMove = !target.m_object->isStaticOrKinematicObject();
     const SurfacePoint point = fem.pointOn(scope.m_bodyIndex, {node, node, node}, {1, 0, 0});
-    ContactPatchSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin,
+    ContactPatchSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_search.m_meanMotion.m_spin,
                              roundness(fem.m_surface.curvature(node), scope.m_size), scope.m_size, std::nullopt};
-    if (fem.m_surface.hasFewFacets(node)) soft.m_ofMass = fem.m_meanMotion.m_velocity;
+    if (fem.m_surface.hasFewFacets(node)) soft.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
     const ContactPatchSide rigid = {
         target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity, curvatureOf(*target.m_shape),
         canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite, std::nullopt};

@@ -16,59 +16,61 @@ constexpr double kMinLikeness = -2;  // smallest similarity of a contact to one 
 void ContactMatcher::begin(const FemSoftBody& fem)
 {
     const int vertexCount = fem.m_surface.vertexCount();
+    const ContactMemory& memory = fem.m_memory;
     m_heldNormal.assign(vertexCount, Vec3());
     m_heldBy.assign(vertexCount, 0);
-    for (std::size_t k = 0; k < fem.m_contacts.size(); ++k)
+    for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
     {
-        const int vertex = fem.m_origins[k].m_feature;
-        const double impulse = dot(fem.m_contacts[k].m_impulse, fem.m_contacts[k].m_normal);
+        const int vertex = memory.m_origins[k].m_feature;
+        const double impulse = dot(memory.m_contacts[k].m_impulse, memory.m_contacts[k].m_normal);
         if (vertex >= vertexCount || impulse <= m_heldBy[vertex]) continue;
         m_heldBy[vertex] = impulse;
-        m_heldNormal[vertex] = fem.m_contacts[k].m_normal;
+        m_heldNormal[vertex] = memory.m_contacts[k].m_normal;
     }
 }
 
 void ContactMatcher::transferImpulses(const SearchScope& scope, ContactList& list)
 {
-    const FemSoftBody& fem = scope.fem();
+    const ContactMemory& memory = scope.fem().m_memory;
     const std::vector<ContactOrigin>& origins = list.origins();
     std::vector<ContactPoint>& contacts = list.points();
-    m_continued.assign(fem.m_origins.size(), 0);
+    m_continued.assign(memory.m_origins.size(), 0);
     for (std::size_t k = 0; k < origins.size(); ++k)
     {
-        const auto range = std::equal_range(fem.m_origins.begin(), fem.m_origins.end(), origins[k]);
+        const auto range = std::equal_range(memory.m_origins.begin(), memory.m_origins.end(), origins[k]);
         double best = kMinLikeness;
-        std::size_t before = fem.m_origins.size();
+        std::size_t before = memory.m_origins.size();
         for (auto old = range.first; old != range.second; ++old)
         {
-            const std::size_t candidate = old - fem.m_origins.begin();
-            const ContactPoint& contact = fem.m_contacts[candidate];
+            const std::size_t candidate = old - memory.m_origins.begin();
+            const ContactPoint& contact = memory.m_contacts[candidate];
             const double likeness = dot(contact.m_normal, contacts[k].m_normal) -
                                     norm(contact.m_point - contacts[k].m_point) / scope.m_size;
             if (likeness <= best || m_continued[candidate]) continue;
             best = likeness;
             before = candidate;
         }
-        if (before == fem.m_origins.size()) continue;
+        if (before == memory.m_origins.size()) continue;
         m_continued[before] = 1;
-        contacts[k].m_impulse = fem.m_contacts[before].m_impulse;
-        contacts[k].m_slip = fem.m_contacts[before].m_slip;
+        contacts[k].m_impulse = memory.m_contacts[before].m_impulse;
+        contacts[k].m_slip = memory.m_contacts[before].m_slip;
     }
-    inheritImpulses(fem, list);
+    inheritImpulses(scope.fem(), list);
 }
 
 // Transfers the impulses of contacts that no longer exist to new contacts nearby, object by object.
 void ContactMatcher::inheritImpulses(const FemSoftBody& fem, ContactList& list)
 {
     const std::vector<ContactOrigin>& origins = list.origins();
+    const ContactMemory& memory = fem.m_memory;
     const auto idOf = [](const ContactOrigin& origin) { return origin.m_objectId; };
-    for (std::size_t first = 0, end = 0, k = 0; first < fem.m_origins.size(); first = end)
+    for (std::size_t first = 0, end = 0, k = 0; first < memory.m_origins.size(); first = end)
     {
-        const int id = idOf(fem.m_origins[first]);
-        m_transfer.clear(fem.m_origins.size());
-        for (end = first; end < fem.m_origins.size() && idOf(fem.m_origins[end]) == id; ++end)
+        const int id = idOf(memory.m_origins[first]);
+        m_transfer.clear(memory.m_origins.size());
+        for (end = first; end < memory.m_origins.size() && idOf(memory.m_origins[end]) == id; ++end)
         {
-            const ContactPoint& old = fem.m_contacts[end];
+            const ContactPoint& old = memory.m_contacts[end];
             if (m_continued[end]) continue;
             m_transfer.addLost(old.m_soft.of(fem.m_body.m_state.m_x), old.m_normal, old.m_impulse);
         }

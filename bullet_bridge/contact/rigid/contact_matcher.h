@@ -10,7 +10,7 @@
 namespace bullet_fem
 {
 
-/// Warm start: matches a body's contacts with those of the last step, FemSoftBody::m_contacts. Scratch grows with their
+/// Warm start: matches a body's contacts with those of the last step in ContactMemory. Scratch grows with their
 /// number, never shrinks.
 class ContactMatcher
 {

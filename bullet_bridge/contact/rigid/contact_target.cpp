@@ -92,7 +92,7 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
     fem.updateSkin();
     scope.m_culling.begin(fem.m_surface, fem.surfacePosition());
     scope.m_fastest = fastestNode(fem.m_body, Vec3());
-    const double softReach = scope.m_band + fem.m_contactOffset +
+    const double softReach = scope.m_band + fem.m_settings.m_contactOffset +
                              around.m_step * (fem.m_skin ? fastestVertex(fem, Vec3()) : scope.m_fastest);
     for (int k = 0; k < around.m_count; ++k)
     {

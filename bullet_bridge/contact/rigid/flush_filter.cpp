@@ -131,7 +131,7 @@ bool FlushFilter::isBehindPath(const SearchScope& scope, const Candidate& candid
     const Vec3 end = contact.m_point + way;
     if (!nearestOn(target, end, contact, nearest)) return true;
     const Vec3 off = end - nearest;
-    return dot(off, contact.m_normal) > 0 && norm(off) - fem.m_contactOffset > apart;
+    return dot(off, contact.m_normal) > 0 && norm(off) - fem.m_settings.m_contactOffset > apart;
 }
 
 // The point of a target that is nearest to `point`; of sheets, only triangles of about the contact's normal count.

@@ -63,7 +63,7 @@ void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, co
     const std::vector<Vec3>& x = fem.surfacePosition();
     const Corners corners = {x[t[0]], x[t[1]], x[t[2]]};
     const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
-    const double distance = marginOf(shape) + fem.m_contactOffset;
+    const double distance = marginOf(shape) + fem.m_settings.m_contactOffset;
     for (int k = 0; k < polyhedron.getNumVertices(); ++k)
     {
         btVector3 vertex;
@@ -98,7 +98,7 @@ double gapAt(const FemSoftBody& fem, const ContactTarget& target, const Triangle
         !pointShapeDistance(*target.m_shape, point, target.m_reach, d))
         return kNotNear;
     d.m_barycentric = weights;
-    return d.m_gap -= fem.m_contactOffset;
+    return d.m_gap -= fem.m_settings.m_contactOffset;
 }
 
 // Damps the node weights of a nearest point. The nearest point to a round shape moves far while its triangle rotates
@@ -138,7 +138,7 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
     for (int i : fem.m_surface.nodes())
     {
         const Vec3& x = fem.surfacePosition()[i];
-        fem.m_nodeGap[i] = kNotNear;
+        fem.m_search.m_nodeGap[i] = kNotNear;
         SurfaceDistance d;
         if (!scope.m_culling.noteVertex(i, x, x))
         {
@@ -148,8 +148,8 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
         const bool isKnown = pointShapeDistance(*target.m_shape, x, farthest, d);
         scope.m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
         if (!isKnown || d.m_gap > reach) continue;
-        fem.m_nodeGap[i] = d.m_gap -= fem.m_contactOffset;
-        fem.m_nodeNormal[i] = d.m_normal;
+        fem.m_search.m_nodeGap[i] = d.m_gap -= fem.m_settings.m_contactOffset;
+        fem.m_search.m_nodeNormal[i] = d.m_normal;
         list.consider(scope, target, i, {i, i, i}, d);
     }
 }
@@ -162,14 +162,15 @@ void NodeSearch::findOnEdges(SearchScope& scope, const ContactTarget& target, Co
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
-        fem.m_edgeGap[k] = kNotNear;
+        fem.m_search.m_edgeGap[k] = kNotNear;
         const Triangle edge = {a, b, a};
         if (scope.m_culling.isOutside(edge) || areOverOneFace(fem, a, b) || isFar(scope, target, edge)) continue;
         SurfaceDistance d;
-        fem.m_edgeGap[k] = gapAt(fem, target, edge, {0.5, 0.5, 0}, d);
-        if (fem.m_edgeGap[k] < kNotNear) list.consider(scope, target, firstFeature + 2 * k, edge, d);
-        const double nearest = std::min({fem.m_edgeGap[k], fem.m_nodeGap[a], fem.m_nodeGap[b]});
-        fem.m_edgeGap[k] = considerNearest(scope, target, firstFeature + 2 * k + 1, edge, nearest, list);
+        fem.m_search.m_edgeGap[k] = gapAt(fem, target, edge, {0.5, 0.5, 0}, d);
+        if (fem.m_search.m_edgeGap[k] < kNotNear) list.consider(scope, target, firstFeature + 2 * k, edge, d);
+        const double nearest =
+            std::min({fem.m_search.m_edgeGap[k], fem.m_search.m_nodeGap[a], fem.m_search.m_nodeGap[b]});
+        fem.m_search.m_edgeGap[k] = considerNearest(scope, target, firstFeature + 2 * k + 1, edge, nearest, list);
     }
 }
 
@@ -191,8 +192,8 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target
         double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
         if (nearest < kNotNear) list.consider(scope, target, firstFeature + 2 * k, t, d);
         for (int a = 0; a < 3; ++a)
-            nearest =
-                std::min({nearest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
+            nearest = std::min({nearest, fem.m_search.m_nodeGap[t[a]],
+                                fem.m_search.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
         if (isSmall && isUnderCorner(scope, target, t))
             m_underCorners.push_back(k);
         else
@@ -225,11 +226,12 @@ double NodeSearch::considerNearest(const SearchScope& scope, const ContactTarget
 {
     const FemSoftBody& fem = scope.fem();
     const std::vector<Vec3>& x = fem.surfacePosition();
-    if (scope.m_culling.minGap(nodes) - fem.m_contactOffset >= nearest - kGapRounding * scope.m_edge) return nearest;
+    if (scope.m_culling.minGap(nodes) - fem.m_settings.m_contactOffset >= nearest - kGapRounding * scope.m_edge)
+        return nearest;
     SurfaceDistance d;
     if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;
-    const double gap = d.m_gap -= fem.m_contactOffset;
+    const double gap = d.m_gap -= fem.m_settings.m_contactOffset;
     const ContactPoint* const last = gap < scope.m_band ? pushingContact(fem, originOf(target, feature)) : nullptr;
     const double advantage = gap >= scope.m_band ? kGapRounding * scope.m_edge
                              : last              ? kHeldAdvantage * scope.m_advantage

@@ -55,7 +55,7 @@ bool meetsIfHeld(const Paths& search, const Triangle& nodes, const Vec3& held, S
 {
     const FemSoftBody& fem = search.m_scope.fem();
     const SweptFeature path = pathOf(fem, search.m_carried, nodes, held, search.m_target.m_step);
-    const double offset = fem.m_contactOffset + search.m_clearance;
+    const double offset = fem.m_settings.m_contactOffset + search.m_clearance;
     if (!mayMeet(search.m_swept, path, offset) || !sweptDistance(search.m_swept, path, offset, contact)) return false;
     SurfaceDistance& d = contact.m_surface;
     d.m_gap += search.m_clearance;
@@ -102,7 +102,7 @@ double considerPath(const Paths& search, int feature, const Triangle& nodes, dou
     SweptContact contact;
     if (!meets(search, nodes, contact)) return earliest;
     const double time = contact.m_time > 0 ? contact.m_time : contact.m_surface.m_gap / search.m_speed;
-    if (feature < fem.m_surface.vertexCount()) fem.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
+    if (feature < fem.m_surface.vertexCount()) fem.m_search.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
     if (time < earliest - search.m_scope.m_advantage / search.m_speed)
         if (ContactPoint* kept = list.keep(search.m_scope, search.m_target, feature, nodes, contact.m_surface))
             setLevers(search.m_scope, search.m_target, feature, contact, *kept);
@@ -120,14 +120,14 @@ void keepNear(const ContactList& near, const FlushFilter& filter, std::size_t k,
 void findTouchingNodes(SearchScope& scope, const ContactTarget& target, ContactList& near)
 {
     const FemSoftBody& fem = scope.fem();
-    const double reach = scope.m_band + fem.m_contactOffset;
+    const double reach = scope.m_band + fem.m_settings.m_contactOffset;
     if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return;
     for (int i : fem.m_surface.nodes())
     {
         const Vec3& x = fem.surfacePosition()[i];
         SurfaceDistance d;
         if (!scope.m_culling.noteVertex(i, x, x) || !pointShapeDistance(*target.m_shape, x, reach, d)) continue;
-        d.m_gap -= fem.m_contactOffset;
+        d.m_gap -= fem.m_settings.m_contactOffset;
         const Vec3 relative = fem.surfaceVelocity()[i] - target.m_motion->velocityAt(x);
         const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
         const bool parts = d.m_gap > 0 && closest > scope.m_band;
@@ -171,35 +171,37 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
     const double fall = norm(target.m_fall);
     const double fastest = fastestVertex(fem, swept.m_motion.m_linearVelocity) + fall / target.m_step;
     const Paths search = {scope, target, filter.carried(), swept, fastest + spin, 0};
-    scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_contactOffset + fall});
+    scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_settings.m_contactOffset + fall});
     std::size_t next = target.m_first;  // in near
     for (int i : fem.m_surface.nodes())
     {
         const SweptFeature path = pathOf(fem, filter.carried(), {i, i, i}, {}, target.m_step);
         scope.m_culling.noteVertex(i, path.m_position[0], path.m_position[0] + target.m_step * path.m_velocity[0]);
-        fem.m_nodeGap[i] = kNever;
+        fem.m_search.m_nodeGap[i] = kNever;
         if (next < target.m_end && near.origins()[next].m_feature == i)
         {
             const ContactPoint& contact = near.points()[next];
-            fem.m_nodeNormal[i] = contact.m_normal;
+            fem.m_search.m_nodeNormal[i] = contact.m_normal;
             if (!filter.isFlush(next))
             {
-                fem.m_nodeGap[i] = contact.m_gap / search.m_speed;
+                fem.m_search.m_nodeGap[i] = contact.m_gap / search.m_speed;
                 list.append(near, next);
             }
             ++next;
             continue;
         }
-        if (!scope.m_culling.isOutside({i, i, i})) fem.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever, list);
+        if (!scope.m_culling.isOutside({i, i, i}))
+            fem.m_search.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever, list);
     }
     const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
     int firstFeature = fem.m_surface.vertexCount() + 1;  // the features of nearest points have odd numbers
     for (int k = 0; k < edgeCount; ++k)
     {
         const auto [a, b] = fem.m_surface.features().m_edges[k];
-        fem.m_edgeGap[k] = std::min(fem.m_nodeGap[a], fem.m_nodeGap[b]);
+        fem.m_search.m_edgeGap[k] = std::min(fem.m_search.m_nodeGap[a], fem.m_search.m_nodeGap[b]);
         if (!areOverOneFace(fem, a, b) && !scope.m_culling.isOutside({a, b, a}))
-            fem.m_edgeGap[k] = considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_edgeGap[k], list);
+            fem.m_search.m_edgeGap[k] =
+                considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_search.m_edgeGap[k], list);
     }
     const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
     firstFeature += 2 * edgeCount;
@@ -210,8 +212,8 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
             continue;
         double earliest = kNever;
         for (int a = 0; a < 3; ++a)
-            earliest = std::min(
-                {earliest, fem.m_nodeGap[t[a]], fem.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
+            earliest = std::min({earliest, fem.m_search.m_nodeGap[t[a]],
+                                 fem.m_search.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
         considerPath(search, firstFeature + 2 * k, t, earliest, list);
     }
 }

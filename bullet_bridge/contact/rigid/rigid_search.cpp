@@ -91,7 +91,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
     {
         const Overlap& touching = m_overlapping[b];
         FemSoftBody& fem = *bodies[b];
-        if (touching.m_count > 0) fem.m_meanMotion = meanMotion(fem.m_body);
+        if (touching.m_count > 0) fem.m_search.m_meanMotion = meanMotion(fem.m_body);
         m_reports[b] = finder.find(*bodies[b], static_cast<int>(b),
                                    {m_touched.data() + touching.m_first, touching.m_count, m_leaves,
                                     rigidProxies.rigidProxies(), step, maxContacts});
@@ -124,7 +124,7 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     m_broadphases.clear();
     for (const FemSoftBody* fem : bodies)
     {
-        btBroadphaseInterface* broadphase = fem->m_overlapping.empty() ? nullptr : broadphaseOf(*fem);
+        btBroadphaseInterface* broadphase = fem->m_overlaps.m_rigid.empty() ? nullptr : broadphaseOf(*fem);
         if (!broadphase || std::find(m_broadphases.begin(), m_broadphases.end(), broadphase) != m_broadphases.end())
             continue;
         m_broadphases.push_back(broadphase);
@@ -147,11 +147,11 @@ void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
     const auto forEachPush = [&](const auto& use)
     {
         for (const FemSoftBody* fem : bodies)
-            for (std::size_t k = 0; k < fem->m_contacts.size(); ++k)
+            for (std::size_t k = 0; k < fem->m_memory.m_contacts.size(); ++k)
             {
-                const ContactPoint& contact = fem->m_contacts[k];
+                const ContactPoint& contact = fem->m_memory.m_contacts[k];
                 const double size = dot(contact.m_impulse, contact.m_normal);
-                const Carried key = {fem->m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
+                const Carried key = {fem->m_memory.m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
                 if (size > 0)
                     use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact);
             }
@@ -198,16 +198,16 @@ void RigidSearch::removeGone(FemSoftBody& fem, int body) const
     if (!broadphaseOf(fem)) return;
     const auto isGone = [&](const void* object)
     { return !std::binary_search(m_overlappingPairs.begin(), m_overlappingPairs.end(), std::make_pair(body, object)); };
-    fem.m_overlapping.erase(std::remove_if(fem.m_overlapping.begin(), fem.m_overlapping.end(), isGone),
-                            fem.m_overlapping.end());
+    fem.m_overlaps.m_rigid.erase(std::remove_if(fem.m_overlaps.m_rigid.begin(), fem.m_overlaps.m_rigid.end(), isGone),
+                                 fem.m_overlaps.m_rigid.end());
 }
 
 void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigidProxies)
 {
-    std::sort(fem.m_overlapping.begin(), fem.m_overlapping.end(),
+    std::sort(fem.m_overlaps.m_rigid.begin(), fem.m_overlaps.m_rigid.end(),
               [](const auto* a, const auto* b) { return broadphaseId(*a) < broadphaseId(*b); });
-    Overlap touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_overlapping.size()), false};
-    for (const btCollisionObject* object : fem.m_overlapping)
+    Overlap touching = {static_cast<int>(m_touched.size()), static_cast<int>(fem.m_overlaps.m_rigid.size()), false};
+    for (const btCollisionObject* object : fem.m_overlaps.m_rigid)
     {
         const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
         const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);

@@ -46,7 +46,7 @@ bool isTurned(const SearchScope& scope, const ContactTarget& target, const Carri
 
 double thicknessOf(const FemSoftBody& fem, const ContactTarget& target)
 {
-    return target.m_shape->m_shape->getMargin() + fem.m_contactOffset;
+    return target.m_shape->m_shape->getMargin() + fem.m_settings.m_contactOffset;
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ void SheetSearch::findNear(SearchScope& scope, ContactTarget& target, const std:
 // Collects triangles near the surface in m_soup; false if there are none.
 bool SheetSearch::collect(SearchScope& scope, const ContactTarget& target)
 {
-    const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + scope.fem().m_contactOffset;
+    const double reach = target.m_reach + target.m_shape->m_shape->getMargin() + scope.fem().m_settings.m_contactOffset;
     const Vec3 box = {reach, reach, reach};
     if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return false;
     m_soup.collect(*target.m_shape, scope.m_culling.low() - box, scope.m_culling.high() + box);
@@ -109,7 +109,7 @@ Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& posit
 {
     const ContactTarget& target = sheets.m_target;
     const SheetSide key = {broadphaseId(*target.m_object), target.m_leaf, node, Vec3(), Vec3()};
-    const std::vector<SheetSide>& known = sheets.m_scope.fem().m_sheetSides;
+    const std::vector<SheetSide>& known = sheets.m_scope.fem().m_memory.m_sheetSides;
     const auto side = std::lower_bound(known.begin(), known.end(), key);
     if (side != known.end() && !(key < *side))
     {

@@ -29,7 +29,7 @@ public:
     void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactList& near,
                      const FlushFilter& filter, ContactList& list);
 
-    /// Sides of the nodes, target by target, for FemSoftBody::m_sheetSides.
+    /// Sides of the nodes, target by target, for ContactMemory::m_sheetSides.
     const std::vector<SheetSide>& sides() const { return m_sides; }
 
 private:

@@ -62,11 +62,11 @@ void TorsionalPatches::append(const std::vector<FemSoftBody*>& bodies, ContactPr
     for (std::size_t b = 0; b < bodies.size(); ++b)
     {
         const FemSoftBody& fem = *bodies[b];
-        const std::size_t count = fem.m_contacts.size();
+        const std::size_t count = fem.m_memory.m_contacts.size();
         for (std::size_t begin = 0, end = 0; begin < count; begin = end)
         {
-            const btCollisionObject* object = fem.m_origins[begin].m_object;
-            while (end < count && fem.m_origins[end].m_object == object) ++end;
+            const btCollisionObject* object = fem.m_memory.m_origins[begin].m_object;
+            while (end < count && fem.m_memory.m_origins[end].m_object == object) ++end;
             const btSoftBody& soft = *fem.m_softBody;
             const double rolling = coefficient(object->getRollingFriction(), soft.getRollingFriction(), fem, *object);
             const double spinning =

@@ -34,9 +34,9 @@ bool isSteady(const FemSoftBody& fem, double step)
     for (std::size_t i = 0; i < state.m_v.size(); ++i)
     {
         const Vec3 load = step * fem.m_body.m_loads.m_force[i];
-        pushed += fem.m_predicted[i];
+        pushed += fem.m_memory.m_predicted[i];
         loads += load;
-        allPushed += norm(fem.m_predicted[i]);
+        allPushed += norm(fem.m_memory.m_predicted[i]);
         allLoads += norm(load);
         momentum += state.m_mass[i] * state.m_v[i];
         mass += state.m_mass[i];
@@ -59,9 +59,9 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
                 [&](int b)
                 {
                     FemSoftBody& fem = *bodies[b];
-                    fem.m_predicted.assign(fem.m_body.m_state.m_x.size(), Vec3());
-                    for (const ContactPoint& contact : fem.m_contacts)
-                        spread(contact.m_soft, contact.m_impulse, fem.m_predicted);
+                    fem.m_memory.m_predicted.assign(fem.m_body.m_state.m_x.size(), Vec3());
+                    for (const ContactPoint& contact : fem.m_memory.m_contacts)
+                        spread(contact.m_soft, contact.m_impulse, fem.m_memory.m_predicted);
                 });
     m_byId.clear();
     for (FemSoftBody* fem : bodies)
@@ -71,7 +71,7 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)
     {
         const auto at = std::lower_bound(m_byId.begin(), m_byId.end(), Numbered{id, nullptr}, before);
-        if (at != m_byId.end() && at->m_id == id) spread(point, impulse, at->m_fem->m_predicted);
+        if (at != m_byId.end() && at->m_id == id) spread(point, impulse, at->m_fem->m_memory.m_predicted);
     };
     const SoftPairMemory::Last last = memory.last();
     for (std::size_t k = 0; k < last.m_count; ++k)
@@ -86,7 +86,7 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
 
 void ContactPrediction::accept(FemSoftBody& fem, double step)
 {
-    if (fem.m_body.m_loads.m_frameDamping > 0 || !isSteady(fem, step)) fem.m_predicted.clear();
+    if (fem.m_body.m_loads.m_frameDamping > 0 || !isSteady(fem, step)) fem.m_memory.m_predicted.clear();
 }
 
 }  // namespace bullet_fem

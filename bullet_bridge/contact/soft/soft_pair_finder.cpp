@@ -26,7 +26,7 @@ constexpr double kSameContact = 0.9;  // smallest cosine between the normals of 
 // Sum of both contact offsets [m]; 0 for self contact.
 double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
 {
-    return &first == &second ? 0 : first.m_contactOffset + second.m_contactOffset;
+    return &first == &second ? 0 : first.m_settings.m_contactOffset + second.m_settings.m_contactOffset;
 }
 
 // Displacement by gravity within the step [m], or 0 if it is negligible. In free motion both bodies fall; contact may
@@ -153,12 +153,12 @@ Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceContact& touch, co
     const auto sideOf = [](const FemSoftBody& fem, const SurfacePoint& point, const Triangle& nodes,
                            const std::array<double, 3>& weights)
     {
-        ContactPatchSide side = {point.of(fem.m_body.m_state.m_v), fem.m_meanMotion.m_spin, 0, fem.m_surface.size(),
-                                 std::nullopt};
+        ContactPatchSide side = {point.of(fem.m_body.m_state.m_v), fem.m_search.m_meanMotion.m_spin, 0,
+                                 fem.m_surface.size(), std::nullopt};
         for (int a = 0; a < 3; ++a)
         {
             side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
-            if (fem.m_surface.hasFewFacets(nodes[a])) side.m_ofMass = fem.m_meanMotion.m_velocity;
+            if (fem.m_surface.hasFewFacets(nodes[a])) side.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
         }
         side.m_curvature = roundness(side.m_curvature, side.m_size);
         return side;

@@ -46,7 +46,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       if (!m_isSearched[b]) return;
                       fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
                       if (!fem.m_surface.isFine()) fem.m_surface.prepareAll();
-                      fem.m_meanMotion = meanMotion(fem.m_body);
+                      fem.m_search.m_meanMotion = meanMotion(fem.m_body);
                   });
     listNearby(bodies);
     m_threads.run(static_cast<int>(m_fine.size()),
@@ -141,7 +141,7 @@ void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
     std::sort(m_byAddress.begin(), m_byAddress.end());
     m_overlapping.clear();
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
-        for (const btSoftBody* other : bodies[a]->m_overlappingSoft)
+        for (const btSoftBody* other : bodies[a]->m_overlaps.m_soft)
         {
             const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
             if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))

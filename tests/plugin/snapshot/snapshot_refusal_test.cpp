@@ -173,11 +173,11 @@ TEST_F(RefusedSnapshot, MutationsAreRejectedOrTakenWithoutACrash)
 TEST_F(RefusedSnapshot, ContactsOfInvalidFeaturesAreRejected)
 {
     FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
-    ASSERT_FALSE(fem.m_origins.empty());
-    const int feature = fem.m_origins[0].m_feature;
-    fem.m_origins[0].m_feature = -3;
+    ASSERT_FALSE(fem.m_memory.m_origins.empty());
+    const int feature = fem.m_memory.m_origins[0].m_feature;
+    fem.m_memory.m_origins[0].m_feature = -3;
     const Bytes bytes = m_scene.save();
-    fem.m_origins[0].m_feature = feature;
+    fem.m_memory.m_origins[0].m_feature = feature;
     expectRefused(bytes, "the feature of a contact is -3, below 0");
 }
 
@@ -191,9 +191,9 @@ TEST_F(RefusedSnapshot, InvalidImpactsAreRejected)
         impact.m_otherComponent = 0;
         impact.m_normal = {0, 0, 1};
         spoil(impact);
-        fem.m_impacts.assign(1, impact);
+        fem.m_memory.m_impacts.assign(1, impact);
         const Bytes bytes = m_scene.save();
-        fem.m_impacts.clear();
+        fem.m_memory.m_impacts.clear();
         expectRefused(bytes, reason);
     };
     expectImpactRefused([](Impact& i) { i.m_restitution = 1.5; }, "the restitution of an impact is 1.5");

@@ -63,7 +63,7 @@ TEST_P(Snapshot, PendingRestitutionContinuesBitForBit)
     for (btRigidBody* body : m_scene.m_rigid) body->setRestitution(1);
     m_scene.m_soft[1]->setVelocity({0, 0, -2});
     const auto impacts = [this]
-    { return btFemCoupling::record(m_scene.m_fem, *m_scene.m_soft[0])->fem().m_impacts.size(); };
+    { return btFemCoupling::record(m_scene.m_fem, *m_scene.m_soft[0])->fem().m_memory.m_impacts.size(); };
     for (int k = 0; k < 20 && (k == 0 || impacts() == 0); ++k) m_scene.m_world.step();
     ASSERT_GT(impacts(), 0u);
     const SnapshotScene::Saved saved = m_scene.saveAll();

@@ -7,13 +7,13 @@
 
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
 
-/// The rows of Bullet's solvers of multibodies: those between rigid bodies, then those of links. A view.
-struct btFemLinkRows
+/// The rows of Bullet's constraint solvers: those between rigid bodies, then those of links. A view.
+struct btFemBulletRows
 {
     btAlignedObjectArray<btSolverBody>& m_pool;
     std::array<btConstraintArray*, 4> m_rigid;
-    std::array<btMultiBodyConstraintArray*, 5> m_links;
-    btMultiBodyJacobianData& m_data;
+    btMultiBodyJacobianData* m_linkData = nullptr;            ///< null: a solver without multibodies
+    std::array<btMultiBodyConstraintArray*, 5> m_links = {};  ///< of a solver with multibodies
 
     /// Writes their impulses [N s].
     void note(std::vector<btScalar>& noted) const;

@@ -5,14 +5,13 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemSolveTogether.h"
+#include "plugin/coupling/btFemIslandSolver.h"
 
-btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
+btFemConstraintSolver::btFemConstraintSolver(btFemSoftBodySolver* fem)
 {
     std::string why;
     if (!valid(fem, &why)) throw std::invalid_argument("btFemConstraintSolver: " + why);
-    m_islands = std::make_unique<btFemIslands>(*fem);
+    m_islandSolver = std::make_unique<btFemIslandSolver>(*fem);
 }
 
 btFemConstraintSolver::~btFemConstraintSolver() = default;
@@ -35,7 +34,7 @@ btScalar btFemConstraintSolver::solveGroup(btCollisionObject** bodies, int numBo
                                                         batch.m_manifoldCount, batch.m_constraints,
                                                         batch.m_constraintCount, settings, debugDrawer, dispatcher);
     };
-    solveBatch(*m_fem, *m_islands, all, info, false, m_group, solve);
+    m_islandSolver->solveBatch(all, info, false, solve);
     return 0;
 }
 
@@ -45,51 +44,17 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
                                                                   const btContactSolverInfo& info,
                                                                   btIDebugDraw* debugDrawer)
 {
-    if (!m_group)
+    if (!m_islandSolver->hasFem())
         return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
             bodies, numBodies, manifolds, numManifolds, constraints, numConstraints, info, debugDrawer);
 
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
-    m_group->begin(m_tmpSolverBodyPool);
     const auto sweep = [&](int iteration)
     {
         return solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints, numConstraints,
                                     info, debugDrawer);
     };
-    const auto note = [this] { noteImpulses(); };
-    const auto restoreBest = [this] { restoreNoted(); };
-    solveTogether(*m_group, info,
-                  btFemRigidRows<decltype(sweep), decltype(note), decltype(restoreBest)>{sweep, note, restoreBest});
+    m_islandSolver->solveTogether(*this, info, sweep);
     return 0;
-}
-
-template <class Visit>
-void btFemConstraintSolver::forEachRigidRow(Visit visit)
-{
-    for (btConstraintArray* rows :
-         {&m_tmpSolverNonContactConstraintPool, &m_tmpSolverContactConstraintPool,
-          &m_tmpSolverContactFrictionConstraintPool, &m_tmpSolverContactRollingFrictionConstraintPool})
-        for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
-}
-
-void btFemConstraintSolver::noteImpulses()
-{
-    m_noted.clear();
-    forEachRigidRow([this](const btSolverConstraint& row) { m_noted.push_back(row.m_appliedImpulse); });
-}
-
-// The velocities of the solver bodies follow, as in Bullet's own rows.
-void btFemConstraintSolver::restoreNoted()
-{
-    auto noted = m_noted.begin();
-    forEachRigidRow(
-        [&](btSolverConstraint& row)
-        {
-            const btScalar change = *noted - btScalar(row.m_appliedImpulse);
-            row.m_appliedImpulse = *noted++;
-            btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-            a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA, change);
-            b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB, change);
-        });
 }

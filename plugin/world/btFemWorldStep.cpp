@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemWorldStep.h"
+#include "plugin/world/btFemWorldStep.h"
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
@@ -42,7 +42,7 @@ void btFemWorldStep::predict(double step)
     for (btFemBodyRecord* record : m_due)
     {
         m_refactoring.renew(m_setUp, *record, bodyStep(*record, step));
-        if (m_setUp.readyForSelfContact(*record)) record->fem().m_overlappingSoft.push_back(record->m_softBody);
+        if (m_setUp.readyForSelfContact(*record)) record->fem().m_overlaps.m_soft.push_back(record->m_softBody);
         m_detailChooser.choose(*record, bodyStep(*record, step));
     }
     prepareForCollision(m_registry.records());

@@ -13,7 +13,6 @@
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
-#include "plugin/btFemWorldStep.h"
 #include "plugin/dispatch/btFemDispatch.h"
 #include "plugin/dispatch/btFemManifolds.h"
 #include "plugin/record/btFemCollisionFlags.h"
@@ -23,6 +22,7 @@
 #include "plugin/snapshot/btFemSnapshot.h"
 #include "plugin/stages/btFemCloth.h"
 #include "plugin/stages/btFemSleeping.h"
+#include "plugin/world/btFemWorldStep.h"
 
 using namespace bullet_fem;
 
@@ -191,7 +191,7 @@ bool btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres, st
         btFemBodyRecord& record = m_impl->m_registry.record(body);
         record.m_asked.m_contactOffset = metres;
         if (!record.isFem()) return;
-        record.fem().m_contactOffset = metres;
+        record.fem().m_settings.m_contactOffset = metres;
         record.fem().m_surface.forgetPlace();  // what it touches is searched for again
     };
     return attempt(why, set);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemDeformableForces.h"
+#include "plugin/world/btFemDeformableForces.h"
 
 #include <algorithm>
 #include <cmath>

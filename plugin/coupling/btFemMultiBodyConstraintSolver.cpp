@@ -5,15 +5,13 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemLinkRows.h"
-#include "plugin/btFemSolveTogether.h"
+#include "plugin/coupling/btFemIslandSolver.h"
 
-btFemMultiBodyConstraintSolver::btFemMultiBodyConstraintSolver(btFemSoftBodySolver* fem) : m_fem(fem)
+btFemMultiBodyConstraintSolver::btFemMultiBodyConstraintSolver(btFemSoftBodySolver* fem)
 {
     std::string why;
     if (!valid(fem, &why)) throw std::invalid_argument("btFemMultiBodyConstraintSolver: " + why);
-    m_islands = std::make_unique<btFemIslands>(*fem);
+    m_islandSolver = std::make_unique<btFemIslandSolver>(*fem);
 }
 
 btFemMultiBodyConstraintSolver::~btFemMultiBodyConstraintSolver() = default;
@@ -46,35 +44,24 @@ void btFemMultiBodyConstraintSolver::solveMultiBodyGroup(btCollisionObject** bod
             batch.m_constraintCount, batch.m_multiBodyConstraints, batch.m_multiBodyConstraintCount, settings,
             debugDrawer, dispatcher);
     };
-    solveBatch(*m_fem, *m_islands, all, info, true, m_group, solve);
+    m_islandSolver->solveBatch(all, info, true, solve);
 }
 
 btScalar btFemMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds, int numManifolds,
     btTypedConstraint** constraints, int numConstraints, const btContactSolverInfo& info, btIDebugDraw* debugDrawer)
 {
-    if (!m_group)
+    if (!m_islandSolver->hasFem())
         return btMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
             bodies, numBodies, manifolds, numManifolds, constraints, numConstraints, info, debugDrawer);
 
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
-    m_group->begin(m_tmpSolverBodyPool, &m_data.m_deltaVelocities);
     const auto sweep = [&](int iteration)
     {
         return solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints, numConstraints,
                                     info, debugDrawer);
     };
-    const btFemLinkRows rows = {
-        m_tmpSolverBodyPool,
-        {&m_tmpSolverNonContactConstraintPool, &m_tmpSolverContactConstraintPool,
-         &m_tmpSolverContactFrictionConstraintPool, &m_tmpSolverContactRollingFrictionConstraintPool},
-        {&m_multiBodyNonContactConstraints, &m_multiBodyNormalContactConstraints,
-         &m_multiBodyFrictionContactConstraints, &m_multiBodyTorsionalFrictionContactConstraints,
-         &m_multiBodySpinningFrictionContactConstraints},
-        m_data};
-    const auto note = [&] { rows.note(m_noted); };
-    const auto back = [&] { rows.restoreBest(m_noted); };
-    solveTogether(*m_group, info, btFemRigidRows<decltype(sweep), decltype(note), decltype(back)>{sweep, note, back});
+    m_islandSolver->solveTogether(*this, info, sweep);
     return 0;
 }

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemLinkRows.h"
+#include "plugin/coupling/btFemBulletRows.h"
 
 template <class Visit>
-void btFemLinkRows::forEach(const Visit& visit) const
+void btFemBulletRows::forEach(const Visit& visit) const
 {
     for (btConstraintArray* rows : m_rigid)
         for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
+    if (!m_linkData) return;
     for (btMultiBodyConstraintArray* rows : m_links)
         for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
 }
 
-void btFemLinkRows::note(std::vector<btScalar>& noted) const
+void btFemBulletRows::note(std::vector<btScalar>& noted) const
 {
     noted.clear();
     forEach([&noted](const auto& row) { noted.push_back(row.m_appliedImpulse); });
 }
 
-void btFemLinkRows::restoreBest(const std::vector<btScalar>& noted) const
+void btFemBulletRows::restoreBest(const std::vector<btScalar>& noted) const
 {
     auto next = noted.begin();
     forEach(
@@ -29,13 +30,13 @@ void btFemLinkRows::restoreBest(const std::vector<btScalar>& noted) const
         });
 }
 
-void btFemLinkRows::change(btSolverConstraint& row, btScalar impulse) const
+void btFemBulletRows::change(btSolverConstraint& row, btScalar impulse) const
 {
     changeBody(row.m_solverBodyIdA, row.m_contactNormal1, row.m_angularComponentA, impulse);
     changeBody(row.m_solverBodyIdB, row.m_contactNormal2, row.m_angularComponentB, impulse);
 }
 
-void btFemLinkRows::change(btMultiBodySolverConstraint& row, btScalar impulse) const
+void btFemBulletRows::change(btMultiBodySolverConstraint& row, btScalar impulse) const
 {
     if (row.m_multiBodyA)
         changeLinks(*row.m_multiBodyA, row.m_jacAindex, row.m_deltaVelAindex, impulse);
@@ -47,15 +48,15 @@ void btFemLinkRows::change(btMultiBodySolverConstraint& row, btScalar impulse) c
         changeBody(row.m_solverBodyIdB, row.m_contactNormal2, row.m_angularComponentB, impulse);
 }
 
-void btFemLinkRows::changeBody(int body, const btVector3& linear, const btVector3& angular, btScalar impulse) const
+void btFemBulletRows::changeBody(int body, const btVector3& linear, const btVector3& angular, btScalar impulse) const
 {
     if (body < 0) return;
     btSolverBody& solverBody = m_pool[body];
     solverBody.internalApplyImpulse(linear * solverBody.internalGetInvMass(), angular, impulse);
 }
 
-void btFemLinkRows::changeLinks(const btMultiBody& body, int jacobian, int first, btScalar impulse) const
+void btFemBulletRows::changeLinks(const btMultiBody& body, int jacobian, int first, btScalar impulse) const
 {
     for (int k = 0; k < body.getNumDofs() + 6; ++k)
-        m_data.m_deltaVelocities[first + k] += m_data.m_deltaVelocitiesUnitImpulse[jacobian + k] * impulse;
+        m_linkData->m_deltaVelocities[first + k] += m_linkData->m_deltaVelocitiesUnitImpulse[jacobian + k] * impulse;
 }

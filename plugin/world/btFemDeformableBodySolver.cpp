@@ -11,12 +11,12 @@
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/bounds.h"
 #include "fem/common/reason.h"
-#include "plugin/btFemDeformableForces.h"
-#include "plugin/btFemWorldStep.h"
 #include "plugin/record/btFemArrays.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
+#include "plugin/world/btFemDeformableForces.h"
+#include "plugin/world/btFemWorldStep.h"
 
 using namespace bullet_fem;
 
@@ -124,9 +124,7 @@ bool btFemDeformableBodySolver::Impl::becomesFem(btSoftBody& body, btScalar dt)
         if (changed && material.m_given) m_fem.setMaterial(&body, material.m_material);
         const btScalar step = dt * body.m_cfg.timescale;
         if (!m_fem.isFem(&body)) m_fem.prepare(&body, isUsableStep(step) ? step : kUsualStep);
-        FemSoftBody& moved = *btFemCoupling::record(m_fem, body)->m_model.m_fem;
-        moved.m_hasOwnGravity = true;
-        moved.m_ownGravity = m_forces.gravityOf(body);
+        btFemCoupling::record(m_fem, body)->m_model.m_fem->m_settings.m_ownGravity = m_forces.gravityOf(body);
         known.m_rejection.clear();
         return true;
     }

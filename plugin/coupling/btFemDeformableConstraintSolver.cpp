@@ -6,11 +6,7 @@
 #include <stdexcept>
 
 #include "bullet_fem/btFemDeformableBodySolver.h"
-#include "plugin/btFemIslands.h"
-#include "plugin/btFemLinkRows.h"
-#include "plugin/btFemSolveTogether.h"
-#include "plugin/record/btFemBodyRecord.h"
-#include "plugin/record/btFemCoupling.h"
+#include "plugin/coupling/btFemIslandSolver.h"
 
 btFemDeformableConstraintSolver::btFemDeformableConstraintSolver(btFemDeformableBodySolver* deformable)
     : m_deformable(deformable)
@@ -18,7 +14,7 @@ btFemDeformableConstraintSolver::btFemDeformableConstraintSolver(btFemDeformable
     std::string why;
     if (!valid(deformable, &why)) throw std::invalid_argument("btFemDeformableConstraintSolver: " + why);
     setDeformableSolver(deformable);
-    m_islands = std::make_unique<btFemIslands>(deformable->fem());
+    m_islandSolver = std::make_unique<btFemIslandSolver>(deformable->fem());
 }
 
 btFemDeformableConstraintSolver::~btFemDeformableConstraintSolver() = default;
@@ -53,14 +49,7 @@ void btFemDeformableConstraintSolver::solveDeformableBodyGroup(
             batch.m_manifoldCount, batch.m_constraints, batch.m_constraintCount, batch.m_multiBodyConstraints,
             batch.m_multiBodyConstraintCount, settings, debugDrawer, dispatcher);
     };
-    solveBatch(m_deformable->fem(), *m_islands, all, info, true, m_group, solve);
-}
-
-bool btFemDeformableConstraintSolver::isFem(const btCollisionObject& body) const
-{
-    const btSoftBody* soft = btSoftBody::upcast(&body);
-    const btFemBodyRecord* record = soft ? btFemCoupling::record(m_deformable->fem(), *soft) : nullptr;
-    return record && record->isFem();
+    m_islandSolver->solveBatch(all, info, true, solve);
 }
 
 // Bullet's own soft bodies act on the velocities of rigid bodies, not on those of the solver's bodies.
@@ -69,7 +58,7 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
     btPersistentManifold** manifolds, int numManifolds, btTypedConstraint** constraints, int numConstraints,
     const btContactSolverInfo& info, btIDebugDraw* debugDrawer)
 {
-    if (!m_group)
+    if (!m_islandSolver->hasFem())
         return btDeformableMultiBodyConstraintSolver::solveDeformableGroupIterations(
             bodies, numBodies, deformableBodies, numDeformableBodies, manifolds, numManifolds, constraints,
             numConstraints, info, debugDrawer);
@@ -77,9 +66,9 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
     pairDeformableAndSolverBody(bodies, numBodies, numDeformableBodies, info);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, deformableBodies, numDeformableBodies, manifolds,
                                                   numManifolds, constraints, numConstraints, info, debugDrawer);
-    m_group->begin(m_tmpSolverBodyPool, &m_data.m_deltaVelocities);
-    const bool others = !std::all_of(deformableBodies, deformableBodies + numDeformableBodies,
-                                     [this](const btCollisionObject* body) { return isFem(*body); });
+    const auto isFem = [this](const btCollisionObject* body)
+    { return m_deformable->fem().isFem(btSoftBody::upcast(body)); };
+    const bool others = !std::all_of(deformableBodies, deformableBodies + numDeformableBodies, isFem);
     const auto sweep = [&](int iteration)
     {
         const btScalar rigid = solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints,
@@ -90,17 +79,7 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
         writeToSolverBody(bodies, numBodies, info);
         return std::max(rigid, soft);
     };
-    const btFemLinkRows rows = {
-        m_tmpSolverBodyPool,
-        {&m_tmpSolverNonContactConstraintPool, &m_tmpSolverContactConstraintPool,
-         &m_tmpSolverContactFrictionConstraintPool, &m_tmpSolverContactRollingFrictionConstraintPool},
-        {&m_multiBodyNonContactConstraints, &m_multiBodyNormalContactConstraints,
-         &m_multiBodyFrictionContactConstraints, &m_multiBodyTorsionalFrictionContactConstraints,
-         &m_multiBodySpinningFrictionContactConstraints},
-        m_data};
-    const auto note = [&] { rows.note(m_noted); };
-    const auto back = [&] { rows.restoreBest(m_noted); };
-    solveTogether(*m_group, info, btFemRigidRows<decltype(sweep), decltype(note), decltype(back)>{sweep, note, back});
+    m_islandSolver->solveTogether(*this, info, sweep);
     m_deformable->deformableBodyInternalWriteBack();
     return 0;
 }

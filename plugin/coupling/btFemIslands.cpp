@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "plugin/btFemIslands.h"
+#include "plugin/coupling/btFemIslands.h"
 
 #include <algorithm>
 

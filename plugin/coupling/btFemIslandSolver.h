@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "BulletDynamics/ConstraintSolver/btContactSolverInfo.h"
+#include "plugin/coupling/btFemBulletRows.h"
+#include "plugin/coupling/btFemIslands.h"
+#include "plugin/record/btFemCoupling.h"
+#include "plugin/stages/btFemContactGroup.h"
+
+/// Settings of Bullet's rigid solver for islands with FEM bodies. What rests starts from the last step's impulses,
+/// friction included: soft bodies carry far, and the rigid rows must not begin anew every time.
+inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
+{
+    btContactSolverInfo settings = info;
+    settings.m_warmstartingFactor = 1;
+    settings.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
+                             SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+    return settings;
+}
+
+/// Solves islands with FEM bodies for btFemConstraintSolver and its kin, which befriend it: Bullet's rows and those of
+/// contacts and joints in rounds.
+class btFemIslandSolver
+{
+public:
+    /// `fem` must outlive it.
+    explicit btFemIslandSolver(btFemSoftBodySolver& fem) : m_fem(fem), m_islands(fem) {}
+
+    /// True while islands with FEM bodies are solved.
+    bool hasFem() const { return m_group != nullptr; }
+
+    /// Solves a batch as the world hands it over: by solve(batch, settings), Bullet's own, at once where it has no FEM
+    /// bodies. Else its islands without them as if they were alone, for Bullet hands small ones over together, and then
+    /// those with them, while hasFem(). `linksToo`: Bullet's rows include those of multibodies.
+    template <class Solve>
+    void solveBatch(const btFemBatch& all, const btContactSolverInfo& info, bool linksToo, const Solve& solve)
+    {
+        m_islands.select(all, true);
+        const std::vector<btCollisionObject*>& together = m_islands.withSoftBodies();
+        btFemContactGroup* begun = btFemCoupling::beginGroup(m_fem, together.data(), static_cast<int>(together.size()),
+                                                             info.m_timeStep, linksToo);
+        if (!begun) return solve(all, info);
+        for (const bool withFem : {false, true})
+        {
+            m_islands.select(all, withFem);
+            const btFemBatch batch = m_islands.selected();
+            if (batch.m_bodyCount + batch.m_softBodyCount == 0) continue;
+            m_group = withFem ? begun : nullptr;
+            solve(batch, withFem ? settingsWithFem(info) : info);
+        }
+        begun->moveRigid();
+        m_group = nullptr;
+    }
+
+    /// Rounds of sweeps over all rows, those of Bullet's `solver` first, then the soft ones; after every round the soft
+    /// bodies' true response. sweep(iteration) sweeps Bullet's rows once, and returns the square of the largest change
+    /// of a row's velocity. Call while hasFem().
+    template <class Solver, class Sweep>
+    void solveTogether(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep)
+    {
+        const btFemBulletRows rows = rowsOf(solver);
+        const int sweeps = std::max(m_group->settings().m_sweeps, info.m_numIterations);
+        const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
+        m_group->begin(rows.m_pool, rows.m_linkData ? &rows.m_linkData->m_deltaVelocities : nullptr);
+        rows.note(m_noted);
+        do
+        {
+            for (int k = 0; k < sweeps; ++k)
+            {
+                const btScalar residual = sweep(std::min(k, last));
+                const bool rigidMoves = residual > info.m_leastSquaresResidualThreshold;
+                const bool moves = m_group->sweep(rigidMoves ? std::sqrt(residual) : 0);
+                if (k >= last && !moves) break;
+            }
+            m_group->correct();
+            if (m_group->isBest()) rows.note(m_noted);
+        } while (m_group->needsOuterIteration());
+        if (m_group->shouldRollBack())
+        {
+            rows.restoreBest(m_noted);
+            m_group->restoreBest();
+        }
+        m_group->finish();
+    }
+
+private:
+    template <class Solver>
+    static btFemBulletRows rowsOf(Solver& solver)
+    {
+        btFemBulletRows rows = {solver.m_tmpSolverBodyPool,
+                                {&solver.m_tmpSolverNonContactConstraintPool, &solver.m_tmpSolverContactConstraintPool,
+                                 &solver.m_tmpSolverContactFrictionConstraintPool,
+                                 &solver.m_tmpSolverContactRollingFrictionConstraintPool}};
+        if constexpr (std::is_base_of_v<btMultiBodyConstraintSolver, Solver>)
+        {
+            rows.m_linkData = &solver.m_data;
+            rows.m_links = {&solver.m_multiBodyNonContactConstraints, &solver.m_multiBodyNormalContactConstraints,
+                            &solver.m_multiBodyFrictionContactConstraints,
+                            &solver.m_multiBodyTorsionalFrictionContactConstraints,
+                            &solver.m_multiBodySpinningFrictionContactConstraints};
+        }
+        return rows;
+    }
+
+    btFemSoftBodySolver& m_fem;
+    btFemIslands m_islands;
+    btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
+    std::vector<btScalar> m_noted;         // impulses of Bullet's rows in the best round so far [N s]
+};
