@@ -36,7 +36,8 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
       m_topology(softBody),
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_surface(m_body.m_model->mesh())
+      m_surface(boundaryOf(m_body.m_model->mesh())),
+      m_notedPlace(m_surface.topology().vertices())
 {
     const int n = softBody.m_nodes.size();
     m_restOrigin = vec3(softBody.m_nodes[0].m_x);
@@ -65,9 +66,9 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
 
 void FemSoftBody::sizeScratch()
 {
-    m_nodeGap.resize(m_surface.vertexCount());
-    m_nodeNormal.resize(m_surface.vertexCount());
-    m_edgeGap.resize(m_surface.features().m_edges.size());
+    m_nodeGap.resize(m_surface.topology().vertexCount());
+    m_nodeNormal.resize(m_surface.topology().vertexCount());
+    m_edgeGap.resize(m_surface.topology().edgeCount());
     m_contacts.clear();
     m_origins.clear();
     m_impacts.clear();
@@ -75,10 +76,11 @@ void FemSoftBody::sizeScratch()
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
 {
-    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(m_body.m_model->mesh());
+    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(boundaryOf(m_body.m_model->mesh()));
+    m_notedPlace = NotedPlace(m_surface.topology().vertices());
     if (skin || m_skin) m_sheetSides.clear();
     m_skin = std::move(skin);
-    m_skinPosition.resize(m_skin ? m_surface.vertexCount() : 0);
+    m_skinPosition.resize(m_skin ? m_surface.topology().vertexCount() : 0);
     m_skinVelocity.resize(m_skinPosition.size());
     m_compliance = std::move(compliance);
     sizeScratch();

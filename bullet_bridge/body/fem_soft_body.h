@@ -14,6 +14,7 @@
 #include "bullet_bridge/body/held_joint.h"
 #include "bullet_bridge/body/model_library.h"
 #include "bullet_bridge/body/topology_marks.h"
+#include "bullet_bridge/geometry/surface/noted_place.h"
 #include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
 
@@ -161,7 +162,8 @@ struct FemSoftBody
     std::vector<ContactOrigin> m_origins;         ///< one per contact, ascending
     std::vector<SheetSide> m_sheetSides;          ///< of the last step, ascending
     std::vector<Impact> m_impacts;                ///< collisions that are not over
-    SoftSurface m_surface;                        ///< collision surface; call its update() before soft contact searches
+    SoftSurface m_surface;                        ///< collision surface; call its place() before soft contact searches
+    NotedPlace m_notedPlace;                      ///< of m_surface at the last soft contact search
     std::shared_ptr<const CollisionSkin> m_skin;  ///< collision surface embedded in the mesh; null: the mesh's boundary
     std::vector<Vec3> m_skinPosition, m_skinVelocity;  ///< see updateSkin
     std::vector<double> m_nodeGap;                     ///< scratch of the contact search, one per vertex

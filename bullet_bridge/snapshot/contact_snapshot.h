@@ -52,7 +52,7 @@ struct ContactSnapshot
     std::vector<AttachmentSnapshot> m_attachments;
     std::vector<WeldSnapshot> m_welds;
     int m_lastAttachment = 0;
-    std::vector<Vec3> m_place;  ///< see SoftSurface::notedPlace
+    std::vector<Vec3> m_place;  ///< see NotedPlace
 };
 
 /// Copies the contacts, joints and impacts of a body, with the ids of `world` in place of pointers.

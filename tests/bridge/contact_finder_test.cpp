@@ -205,7 +205,7 @@ TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.43), btScalar(0.37), btScalar(-0.35)));
     const std::size_t count = find(m_ball).size();
     const int nodes = m_fem.m_body.m_model->nodeCount();
-    const int edges = static_cast<int>(m_fem.m_surface.features().m_edges.size());
+    const int edges = m_fem.m_surface.topology().edgeCount();
     ASSERT_GT(
         std::count_if(m_fem.m_origins.begin(), m_fem.m_origins.end(),
                       [=](const ContactOrigin& o) { return o.m_feature >= nodes && o.m_feature < nodes + 2 * edges; }),

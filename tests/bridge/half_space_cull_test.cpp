@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bridge/random_vectors.h"
+#include "bullet_bridge/geometry/surface/surface_normals.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
@@ -21,17 +22,18 @@ bool isFarOutside(const SoftSurface& surface, const Vec3& p)
     const int t = surface.tree().nearestTriangle(
         p, 1e9, [](int) { return false; }, nearest);
     const Vec3 r = p - nearest.m_point;
-    return norm(r) > kFar && !(dot(r, surface.normalAt(t, nearest)) < 0);
+    return norm(r) > kFar && !(dot(r, normalAt(surface, t, nearest)) < 0);
 }
 
 // Points that are proved to be far outside; the search has to agree with all of them.
 template <class Move>
 int proved(const TetMesh& mesh, Move move)
 {
-    SoftSurface surface(mesh);
+    SoftSurface surface(boundaryOf(mesh));
     std::vector<Vec3> x = mesh.restPositions();
     for (Vec3& p : x) p = move(p);
-    surface.update(x, std::vector<Vec3>(x.size()), 1);
+    surface.place(x, std::vector<Vec3>(x.size()), 1);
+    surface.prepareAll();
     Random random;
     int count = 0;
     for (int k = 0; k < 3000; ++k)
@@ -72,8 +74,8 @@ TEST(HalfSpaceCull, AgreesWithTheNearestTriangleOfAnInvertedBody)
 
 TEST(HalfSpaceCull, CullsNothingForOpenSurfaces)
 {
-    SoftSurface sheet(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0, 1, 2}, 1, 1, {}});
-    EXPECT_FALSE(sheet.isClosed());
+    SoftSurface sheet(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 1, 1, {}});
+    EXPECT_FALSE(sheet.topology().isClosed());
     EXPECT_FALSE(HalfSpaceCull(sheet, {0, 0, 1}).isFarOutside({0.3, 0.3, 5}, kFar));
     EXPECT_FALSE(HalfSpaceCull().isFarOutside({0, 0, 5}, kFar));
 }

@@ -155,7 +155,8 @@ void ClothContacts::find(const std::vector<FemSoftBody*>& bodies, double step, i
         FemSoftBody& fem = *bodies[m_searches[k]->m_body];
         if (k > 0 && m_searches[k - 1]->m_body == m_searches[k]->m_body) continue;
         fem.updateSkin();
-        fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+        fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
+        fem.m_surface.prepareAll();
     }
     threads.run(static_cast<int>(m_searchCount),
                 [&](int k) { search(*bodies[m_searches[k]->m_body], maxContacts, *m_searches[k]); });

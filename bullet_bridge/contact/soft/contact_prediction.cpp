@@ -65,7 +65,7 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
                 });
     m_byId.clear();
     for (FemSoftBody* fem : bodies)
-        if (fem->m_surface.isPlaceNoted()) m_byId.push_back({broadphaseId(*fem->m_softBody), fem});
+        if (fem->m_notedPlace.isNoted()) m_byId.push_back({broadphaseId(*fem->m_softBody), fem});
     const auto before = [](const Numbered& a, const Numbered& b) { return a.m_id < b.m_id; };
     std::sort(m_byId.begin(), m_byId.end(), before);
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)

@@ -157,8 +157,8 @@ Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceContact& touch, co
                                  std::nullopt};
         for (int a = 0; a < 3; ++a)
         {
-            side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
-            if (fem.m_surface.hasFewFacets(nodes[a])) side.m_ofMass = fem.m_meanMotion.m_velocity;
+            side.m_curvature += weights[a] * fem.m_surface.curvature().m_largest[nodes[a]];
+            if (fem.m_surface.curvature().m_hasFewFacets[nodes[a]]) side.m_ofMass = fem.m_meanMotion.m_velocity;
         }
         side.m_curvature = roundness(side.m_curvature, side.m_size);
         return side;

@@ -19,6 +19,12 @@ namespace
 // Largest displacement of a still body's nodes since they were noted, in mean edges. Two still bodies approach each
 // other by up to four times as much since they were searched: half the contact band.
 constexpr double kStillShare = 0.00625;
+constexpr int kFine = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
+
+bool isFine(const SoftSurface& surface)
+{
+    return surface.topology().triangleCount() >= kFine;
+}
 
 }  // namespace
 
@@ -34,8 +40,8 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
-                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
-                                                           kStillShare * m_smallestEdge[b]);
+                      m_isStill[b] = fem.m_notedPlace.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
+                                                              kStillShare * m_smallestEdge[b]);
                   });
     choosePairs();
     m_threads.run(paired,
@@ -45,7 +51,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       FemSoftBody& fem = *bodies[b];
                       if (!m_isSearched[b]) return;
                       fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
-                      if (!fem.m_surface.isFine()) fem.m_surface.prepareAll();
+                      if (!isFine(fem.m_surface)) fem.m_surface.prepareAll();
                       fem.m_meanMotion = meanMotion(fem.m_body);
                   });
     listNearby(bodies);
@@ -94,7 +100,7 @@ void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
     if (m_nearby.size() < bodies.size()) m_nearby.resize(bodies.size());
     m_fine.clear();
     for (int b : m_paired)
-        if (m_isSearched[b] && bodies[b]->m_surface.isFine()) m_fine.push_back(b);
+        if (m_isSearched[b] && isFine(bodies[b]->m_surface)) m_fine.push_back(b);
     if (m_fine.empty()) return;
     for (int b : m_fine) m_nearby[b].clear();
     for (const Pair& pair : m_pairs)
@@ -177,7 +183,7 @@ void SoftPairSearch::remember(const ContactPoint* solved)
     for (const Pair& pair : m_pairs)
         if (pair.m_complete) m_complete.push_back(pair.m_ids);
     m_memory.remember({solved, m_origins.data(), m_origins.size()}, m_complete);
-    for (FemSoftBody* fem : m_moved) fem->m_surface.notePlace();
+    for (FemSoftBody* fem : m_moved) fem->m_notedPlace.note(fem->m_surface.position());
 }
 
 int SoftPairSearch::searchedPairs() const
