@@ -28,7 +28,7 @@ Vec3 turned(const Vec3& v, const Vec3& w)
 // True if the object is at its pose of the end of the step; kinematic objects always are.
 bool hasMoved(const btCollisionObject& object, const JointScene& scene)
 {
-    return scene.m_phase == RigidPhase::moved || object.isStaticOrKinematicObject();
+    return scene.m_rigid.phase() == RigidPhase::moved || object.isStaticOrKinematicObject();
 }
 
 }  // namespace

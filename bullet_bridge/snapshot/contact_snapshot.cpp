@@ -299,9 +299,9 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
     kept.m_origins.resize(left);
 }
 
-void check(const RigidProxies::Memory& memory)
+void check(const RigidHistory::Memory& memory)
 {
-    for (const RigidProxies::Remainder& r : memory.m_remainders)
+    for (const RigidHistory::Remainder& r : memory.m_remainders)
         checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven,
                   r.m_linearExpected, r.m_angularExpected);
 }
