@@ -98,11 +98,6 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
     return flags;
 }
 
-bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other)
-{
-    return isPointAttached(fem, pointOf(0, nodes, {1, 0, 0}), other);
-}
-
 bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other)
 {
     const auto end = point.m_nodes.begin() + point.m_count;

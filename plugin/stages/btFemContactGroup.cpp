@@ -61,6 +61,7 @@ void btFemContactGroup::beginStep(double step)
 {
     m_rigid.history().beginStep(step);
     m_rigid.links().beginStep();
+    m_rigidSearch.beginStep();
     m_softPairs.beginStep();
     m_cloth.beginStep();
     m_joints.forgetWorld();
@@ -69,8 +70,7 @@ void btFemContactGroup::beginStep(double step)
 // Clears the problem, but keeps the capacity of the contact array, which is its largest part.
 void btFemContactGroup::clearProblem()
 {
-    std::vector<ContactPoint> contacts;
-    contacts.swap(m_problem.m_contacts);
+    std::vector<ContactPoint> contacts = std::move(m_problem.m_contacts);
     m_problem.clear();
     contacts.swap(m_problem.m_contacts);
 }
@@ -218,10 +218,9 @@ bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, b
 {
     if (m_reachesOut || (!m_rigid.links().isEmpty() && !linksToo)) return false;
     for (int k = 0; k < static_cast<int>(m_rigid.rigidProxies().size()); ++k)
-    {
-        const bool moves = movableBody(m_rigid.object(k)) || m_rigid.isMovableLink(k);
-        if (moves && std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count) return false;
-    }
+        if ((movableBody(m_rigid.object(k)) || m_rigid.isMovableLink(k)) &&
+            std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count)
+            return false;
     return true;
 }
 

@@ -284,6 +284,32 @@ TEST_F(ContactFinderTest, ThreadedSearchEqualsSearchBodyByBody)
     }
 }
 
+/// A shape at the address of one that reported triangles, and reports none.
+struct EmptiedSheet : OwnSheet
+{
+    using OwnSheet::OwnSheet;
+    void processAllTriangles(btTriangleCallback* visitor, const btVector3& low, const btVector3& high) const override
+    {
+        if (!m_isEmpty) OwnSheet::processAllTriangles(visitor, low, high);
+    }
+    bool m_isEmpty = false;
+};
+
+TEST_F(ContactFinderTest, OwnShapesAreAskedForTrianglesAgainAfterAStepWithoutThem)
+{
+    btTriangleMesh mesh;
+    mesh.addTriangle(btVector3(-1, -1, 0), btVector3(1, -1, 0), btVector3(0, 1, 0));
+    EmptiedSheet sheet(mesh);
+    m_ground.setCollisionShape(&sheet);
+    find(m_ground);
+    EXPECT_FALSE(m_report.m_unknownShape);
+    sheet.m_isEmpty = true;
+    m_search.beginStep();
+    m_search.beginStep();
+    find(m_ground);
+    EXPECT_TRUE(m_report.m_unknownShape);
+}
+
 TEST_F(ContactFinderTest, ObjectsRecordedByManyThreadsAreFoundOnce)
 {
     std::vector<btCollisionObject> objects(16);

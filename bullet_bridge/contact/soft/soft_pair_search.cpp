@@ -142,16 +142,13 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
-    std::sort(m_byAddress.begin(), m_byAddress.end());
+    for (std::size_t b = 0; b < bodies.size(); ++b) m_byAddress.add(bodies[b]->m_softBody, b);
     m_overlapping.clear();
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
         for (const btSoftBody* other : bodies[a]->m_overlappingSoft)
         {
-            const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
-            if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))
-                m_overlapping.emplace_back(std::min(a, at->second), std::max(a, at->second));
+            const int b = m_byAddress.find(other);
+            if (b >= 0 && mayTouch(*bodies[a], *bodies[b])) m_overlapping.emplace_back(std::min(a, b), std::max(a, b));
         }
     std::sort(m_overlapping.begin(), m_overlapping.end());
     m_overlapping.erase(std::unique(m_overlapping.begin(), m_overlapping.end()), m_overlapping.end());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_bridge/contact/soft/soft_pair_finder.h"
+#include "bullet_bridge/rigid/sorted_index.h"
 
 namespace bullet_fem
 {
@@ -71,8 +72,8 @@ private:
     const Threads& m_threads;
     SoftPairMemory m_memory;
     std::vector<Part> m_parts;
-    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies by address, ascending
-    std::vector<std::pair<int, int>> m_overlapping;              // pairs of bodies, the smaller index first; ascending
+    SortedIndex<const btSoftBody*> m_byAddress;
+    std::vector<std::pair<int, int>> m_overlapping;  // pairs of bodies, the smaller index first; ascending
     std::vector<Pair> m_pairs;
     std::vector<SoftPairIds> m_complete;  // scratch: pairs with all of their contacts
     std::vector<int> m_paired;            // bodies that are in some pair
