@@ -251,15 +251,6 @@ void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
     }
 }
 
-void NodeSurfaceSearch::choose(const Visit& visit)
-{
-    std::sort(m_hits.begin(), m_hits.end(), [](const Hit& a, const Hit& b) { return a.m_triangle < b.m_triangle; });
-    dropRims(visit);
-    dropDeeper();
-    dropLaterImpacts();
-    dropContinuations();
-}
-
 // Keeps a face beyond its rim only if the node lies over no other face; of several, the one that opposes the node's
 // normal most.
 void NodeSurfaceSearch::dropRims(const Visit& visit)
@@ -278,23 +269,21 @@ void NodeSurfaceSearch::dropRims(const Visit& visit)
     for (Hit& hit : m_hits) hit.m_dropped = hit.m_place == Place::rim && (over || &hit != best);
 }
 
-// Keeps the nearest face as the way out of the body, and a second one where that ends in a groove.
-void NodeSurfaceSearch::dropDeeper()
+// Keeps the nearest face as the way out of the body, and a second one where that ends in a groove; and the first
+// impact.
+void NodeSurfaceSearch::choose(const Visit& visit)
 {
-    double least = -kInfinity;
+    std::sort(m_hits.begin(), m_hits.end(), [](const Hit& a, const Hit& b) { return a.m_triangle < b.m_triangle; });
+    dropRims(visit);
+    double least = -kInfinity, first = kInfinity;
     for (const Hit& hit : m_hits)
+    {
         if (!hit.m_dropped && hit.m_gap < 0) least = std::max(least, hit.m_gap);
-    for (Hit& hit : m_hits)
-        if (hit.m_gap < least && hit.m_place != Place::groove) hit.m_dropped = true;
-}
-
-void NodeSurfaceSearch::dropLaterImpacts()
-{
-    double first = kInfinity;
-    for (const Hit& hit : m_hits)
         if (hit.m_time > 0) first = std::min(first, hit.m_time);
+    }
     for (Hit& hit : m_hits)
-        if (hit.m_time > first) hit.m_dropped = true;
+        if ((hit.m_gap < least && hit.m_place != Place::groove) || hit.m_time > first) hit.m_dropped = true;
+    dropContinuations();
 }
 
 // Of faces that continue each other, keeps the nearest.

@@ -77,7 +77,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
 
     SoftPairReport report;
     report.m_thinned = thin(first, second);
-    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
     m_continued.assign(m_last.m_count, 0);
     transferImpulses();
     inheritImpulses(first, second);
@@ -111,7 +111,7 @@ SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSid
         contact.m_slip = last.m_slip;
     }
     SoftPairReport report;
-    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
     tell(report, contacts, origins);
     return report;
 }
