@@ -62,7 +62,7 @@ void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, co
     if (polyhedron.getNumVertices() > kMaxCorners) return;
     const std::vector<Vec3>& x = fem.surfacePosition();
     const Corners corners = {x[t[0]], x[t[1]], x[t[2]]};
-    const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const Vec3 normal = normalOf(corners);
     const double distance = marginOf(shape) + fem.m_contactOffset;
     for (int k = 0; k < polyhedron.getNumVertices(); ++k)
     {

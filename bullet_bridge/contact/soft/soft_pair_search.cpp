@@ -19,11 +19,11 @@ namespace
 // Largest displacement of a still body's nodes since they were noted, in mean edges. Two still bodies approach each
 // other by up to four times as much since they were searched: half the contact band.
 constexpr double kStillShare = 0.00625;
-constexpr int kFine = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
+constexpr int kFineTriangles = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
 
 bool isFine(const SoftSurface& surface)
 {
-    return surface.topology().triangleCount() >= kFine;
+    return surface.topology().triangleCount() >= kFineTriangles;
 }
 
 }  // namespace
