@@ -18,14 +18,6 @@ namespace bullet_fem
 namespace
 {
 
-Mat3 mat3(const btMatrix3x3& m)
-{
-    Mat3 result;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) result(i, j) = m[i][j];
-    return result;
-}
-
 RigidProxy immovable(const btCollisionObject& object)
 {
     RigidProxy rigidProxy;

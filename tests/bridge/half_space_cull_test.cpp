@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "bridge/random_vectors.h"
-#include "bullet_bridge/geometry/surface/surface_normals.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem

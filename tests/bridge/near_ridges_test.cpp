@@ -8,7 +8,6 @@
 #include <set>
 
 #include "bridge/random_vectors.h"
-#include "bullet_bridge/geometry/surface/surface_normals.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem

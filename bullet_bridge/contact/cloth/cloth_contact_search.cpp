@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bullet_bridge/geometry/surface/surface_normals.h"
-
 namespace bullet_fem
 {
 namespace

@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "bullet_bridge/geometry/surface/surface_normals.h"
-
 namespace bullet_fem
 {
 namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bullet_bridge/geometry/surface/rest_neighbours.h"
@@ -47,8 +48,8 @@ struct RestSurface
 RestSurface boundaryOf(const TetMesh& mesh);
 
 /// The surface of a deforming body as input of the soft-body contact search: its topology and curvature at rest, and in
-/// a step its face normals, dihedral angles, and a bounding volume tree over its triangles. surface_normals.h has more
-/// normals. Built at set-up; place() and the preparation never allocate.
+/// a step its face normals, dihedral angles, and a bounding volume tree over its triangles. Built at set-up; place()
+/// and the preparation never allocate.
 class SoftSurface
 {
 public:
@@ -58,7 +59,10 @@ public:
 
     /// Sets the neighbours at rest of the nodes nearest to the vertices. Required for self contact, and used by it
     /// only.
-    void setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours);
+    void setRestNeighbours(std::shared_ptr<const RestNeighbours> neighbours)
+    {
+        m_restNeighbours = std::move(neighbours);
+    }
     bool hasRestNeighbours() const { return m_restNeighbours != nullptr; }
     /// True if two vertices are excluded from self contact: see RestNeighbours.
     bool areCloseAtRest(int a, int b) const { return m_restNeighbours->areClose(nodeAt(a), nodeAt(b)); }
@@ -109,5 +113,31 @@ private:
     bool m_prepared = false;
     std::vector<int> m_nearNodes;  // scratch: nodes of the tree
 };
+
+// Unit normals of edges and vertices, outward. They are computed on demand, as few are near another body.
+
+/// Mean of an edge's face normals.
+Vec3 edgeNormal(const SoftSurface& surface, int edge);
+/// Mean of a vertex's face normals weighted by their angles.
+Vec3 nodeNormal(const SoftSurface& surface, int node);
+/// The pseudonormal of a triangle's feature: its sign tells on which side of a closed surface a point is whose nearest
+/// point lies on that feature [Baerentzen and Aanaes 2005].
+Vec3 normalAt(const SoftSurface& surface, int triangle, const TrianglePoint& point);
+
+/// Unit vector in a triangle's plane, perpendicular to its edge, into the triangle.
+Vec3 intoFace(const SoftSurface& surface, int edge, int triangle);
+/// Those of an edge's two triangles.
+std::array<Vec3, 2> intoFaces(const SoftSurface& surface, int edge);
+
+/// True if the normals of all faces at an edge (a node) are within 8 degrees of its normal.
+bool isFlatEdge(const SoftSurface& surface, int edge);
+bool isFlatNode(const SoftSurface& surface, int node);
+
+/// Smallest dot product [-] of a direction with the unit vectors along the surface edges from a node. If it is >= 0,
+/// the body near the node lies on the direction's side of a plane through the node.
+double minAlongEdges(const SoftSurface& surface, int node, const Vec3& direction);
+
+/// Centre of the bounding box at the start [m].
+Vec3 middleOf(const SoftSurface& surface);
 
 }  // namespace bullet_fem
