@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 #include "bullet_fem/fem/cage/surface_repair.h"
@@ -57,11 +56,11 @@ Vec3 behind(const std::vector<Vec3>& x, const Triangle& t)
     return (1.0 / 3) * (x[t[0]] + x[t[1]] + x[t[2]]) - (away / norm(area)) * area;
 }
 
-double meanEdge(const SurfaceFeatures& features, const std::vector<Vec3>& x)
+double meanEdge(const SurfaceTopology& topology, const std::vector<Vec3>& x)
 {
     double sum = 0;
-    for (const auto& [a, b] : features.m_edges) sum += norm(x[b] - x[a]);
-    return sum / static_cast<double>(features.m_edges.size());
+    for (const auto& [a, b] : topology.edges()) sum += norm(x[b] - x[a]);
+    return sum / topology.edgeCount();
 }
 
 }  // namespace
@@ -89,8 +88,9 @@ CollisionSkin::CollisionSkin(const TetMesh& mesh, const std::vector<SkinVertex>&
         reject("none of the ", surface.m_triangles.size(), " faces of the surface that is to collide has an area");
     takeVertices(vertices, repaired.m_welded);
     turnOutward();
-    countEdges();
-    measure(mesh);
+    const SurfaceTopology topology(m_rest.m_triangles, static_cast<int>(m_vertices.size()));
+    countEdges(topology);
+    measure(topology, mesh);
 }
 
 // Keeps the vertices that triangles use, and renumbers them.
@@ -117,8 +117,6 @@ void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const 
     for (Triangle& t : m_rest.m_triangles)
         for (int& corner : t) corner = number[corner];
     m_rest.m_positions = std::move(positions);
-    m_rest.m_vertices.resize(m_vertices.size());
-    std::iota(m_rest.m_vertices.begin(), m_rest.m_vertices.end(), 0);
     std::sort(m_nodes.begin(), m_nodes.end());
     m_nodes.erase(std::unique(m_nodes.begin(), m_nodes.end()), m_nodes.end());
 }
@@ -153,26 +151,22 @@ void CollisionSkin::turnOutward()
     }
 }
 
-void CollisionSkin::countEdges()
+void CollisionSkin::countEdges(const SurfaceTopology& topology)
 {
-    const SurfaceFeatures features(m_rest.m_triangles, static_cast<int>(m_vertices.size()));
-    std::vector<int> triangles(features.m_edges.size(), 0);
-    for (const std::array<int, 3>& edges : features.m_triangleEdges)
-        for (int edge : edges) ++triangles[edge];
-    for (int count : triangles)
+    for (int edge = 0; edge < topology.edgeCount(); ++edge)
     {
-        m_mended.m_openEdges += count == 1;
-        m_mended.m_crossings += count > 2;
+        const auto [first, last] = topology.trianglesOf(edge);
+        m_mended.m_openEdges += first == last;
+        m_mended.m_crossings += first != last && !topology.isManifold(edge);
     }
 }
 
 // Bands and margins are relative to the tetrahedra's mean edge, scaled down if the skin is finer than the mesh's
 // boundary.
-void CollisionSkin::measure(const TetMesh& mesh)
+void CollisionSkin::measure(const SurfaceTopology& topology, const TetMesh& mesh)
 {
-    const SurfaceFeatures own(m_rest.m_triangles, static_cast<int>(m_vertices.size()));
-    const SurfaceFeatures boundary(mesh.surface(), mesh.nodeCount());
-    const double finer = meanEdge(own, m_rest.m_positions) / meanEdge(boundary, mesh.restPositions());
+    const SurfaceTopology boundary(mesh.surface(), mesh.nodeCount());
+    const double finer = meanEdge(topology, m_rest.m_positions) / meanEdge(boundary, mesh.restPositions());
     m_rest.m_meanEdge = mesh.meanEdgeLength() * std::min(1.0, finer);
     m_rest.m_size = std::cbrt(mesh.volume());
 }

@@ -63,8 +63,8 @@ public:
 private:
     void takeVertices(const std::vector<SkinVertex>& vertices, const std::vector<int>& welded);
     void turnOutward();
-    void countEdges();
-    void measure(const TetMesh& mesh);
+    void countEdges(const SurfaceTopology& topology);
+    void measure(const SurfaceTopology& topology, const TetMesh& mesh);
 
     RestSurface m_rest;
     std::vector<SkinVertex> m_vertices;

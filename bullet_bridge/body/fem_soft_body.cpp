@@ -35,7 +35,8 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
       m_setUp{&softBody.m_nodes[0], TopologyMarks(softBody), vec3(softBody.m_nodes[0].m_x), {}},
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_surface(m_body.m_model->mesh())
+      m_surface(boundaryOf(m_body.m_model->mesh())),
+      m_notedPlace(m_surface.topology().vertices())
 {
     const int n = softBody.m_nodes.size();
     m_pins.m_velocity.resize(n);
@@ -63,9 +64,9 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
 
 void FemSoftBody::sizeScratch()
 {
-    m_search.m_nodeGap.resize(m_surface.vertexCount());
-    m_search.m_nodeNormal.resize(m_surface.vertexCount());
-    m_search.m_edgeGap.resize(m_surface.features().m_edges.size());
+    m_search.m_nodeGap.resize(m_surface.topology().vertexCount());
+    m_search.m_nodeNormal.resize(m_surface.topology().vertexCount());
+    m_search.m_edgeGap.resize(m_surface.topology().edgeCount());
     m_memory.m_contacts.clear();
     m_memory.m_origins.clear();
     m_memory.m_impacts.clear();
@@ -73,10 +74,11 @@ void FemSoftBody::sizeScratch()
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
 {
-    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(m_body.m_model->mesh());
+    m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(boundaryOf(m_body.m_model->mesh()));
+    m_notedPlace = NotedPlace(m_surface.topology().vertices());
     if (skin || m_skin) m_memory.m_sheetSides.clear();
     m_skin = std::move(skin);
-    m_skinMotion.m_position.resize(m_skin ? m_surface.vertexCount() : 0);
+    m_skinMotion.m_position.resize(m_skin ? m_surface.topology().vertexCount() : 0);
     m_skinMotion.m_velocity.resize(m_skinMotion.m_position.size());
     m_compliance = std::move(compliance);
     sizeScratch();

@@ -15,6 +15,7 @@
 #include "bullet_bridge/body/held_joint.h"
 #include "bullet_bridge/body/model_library.h"
 #include "bullet_bridge/body/topology_marks.h"
+#include "bullet_bridge/geometry/surface/noted_place.h"
 #include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
 
@@ -187,7 +188,8 @@ struct FemSoftBody
     BodyOverlaps m_overlaps;
     HeldJoints m_joints;  ///< joints, attachments and springs of the body
     ContactMemory m_memory;
-    SoftSurface m_surface;                        ///< collision surface; call its update() before soft contact searches
+    SoftSurface m_surface;                        ///< collision surface; call its place() before soft contact searches
+    NotedPlace m_notedPlace;                      ///< of m_surface at the last soft contact search
     std::shared_ptr<const CollisionSkin> m_skin;  ///< collision surface embedded in the mesh; null: the mesh's boundary
     SearchScratch m_search;
 

@@ -6,15 +6,13 @@
 #include <numeric>
 #include <vector>
 
-#include "bullet_fem/fem/contact/contact_solver.h"
-
 namespace bullet_fem
 {
 
-/// Keeps the `most` (>= 0) contacts of smallest gap, with their origins, in their present order. Returns false if there
-/// are no more than that. `order` is scratch.
-template <class Origin>
-bool keepNearest(int most, std::vector<ContactPoint>& contacts, std::vector<Origin>& origins, std::vector<int>& order)
+/// Keeps the `most` (>= 0) contacts of smallest gap, with their entries in other lists, in their present order. Returns
+/// false if there are no more than that. `order` is scratch.
+template <class Contact, class... Others>
+bool keepNearest(int most, std::vector<int>& order, std::vector<Contact>& contacts, std::vector<Others>&... others)
 {
     if (static_cast<int>(contacts.size()) <= most) return false;
     order.resize(contacts.size());
@@ -27,10 +25,10 @@ bool keepNearest(int most, std::vector<ContactPoint>& contacts, std::vector<Orig
     for (int k = 0; k < most; ++k)
     {
         contacts[k] = contacts[order[k]];
-        origins[k] = origins[order[k]];
+        ((others[k] = others[order[k]]), ...);
     }
     contacts.resize(most);
-    origins.resize(most);
+    (others.resize(most), ...);
     return true;
 }
 

@@ -18,13 +18,6 @@ constexpr double kPinnedMass = 1e6;     // mass of a pinned node over the sum of
 constexpr double kPinnedBeyond = 1e17;  // masses above this are pinned [kg]
 constexpr double kThinnestInertia = 1e-9;  // regularization of the inertia over its trace, for collinear clusters
 
-btMatrix3x3 bulletMatrix(const Mat3& m)
-{
-    btMatrix3x3 result;
-    for (int i = 0; i < 3; ++i) result[i] = btVector3(btScalar(m(i, 0)), btScalar(m(i, 1)), btScalar(m(i, 2)));
-    return result;
-}
-
 }  // namespace
 
 bool isClusterOf(const FemSoftBody& fem, const btSoftBody::Cluster& cluster)

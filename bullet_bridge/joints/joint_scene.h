@@ -18,8 +18,7 @@ struct JointScene
     const std::vector<FemSoftBody*>& m_outside;  ///< the other FEM bodies of the world
     RigidProxies& m_rigid;
     const WorldObjects& m_world;
-    double m_step;       ///< time step of the world [s]
-    RigidPhase m_phase;  ///< phase of m_rigid
+    double m_step;  ///< time step of the world [s]
 };
 
 /// Flags from collecting joints.

@@ -30,21 +30,6 @@ Vec3 pointOf(const NodeAttachment& attachment, const FemSoftBody& other)
     return point;
 }
 
-JointEnd pointEnd(const NodeAttachment& attachment, int body, ContactProblem& problem)
-{
-    JointEnd end;
-    end.m_body = body;
-    end.m_first = static_cast<int>(problem.m_handleNodes.size());
-    for (int a = 0; a < 4; ++a)
-    {
-        if (attachment.m_weights[a] == 0) continue;
-        problem.m_handleNodes.push_back(attachment.m_otherNodes[a]);
-        problem.m_handleBlocks.push_back(Mat3::diagonal(attachment.m_weights[a]));
-        ++end.m_count;
-    }
-    return end;
-}
-
 }  // namespace
 
 JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& problem)
@@ -75,7 +60,7 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
             held.m_impulse = before->m_impulse;
         Joint joint;
         joint.m_a = nodeEnd(body, attachment.m_node, problem);
-        if (other >= 0) joint.m_b = pointEnd(attachment, other, problem);
+        if (other >= 0) joint.m_b = pointEnd(other, attachment.m_otherNodes, attachment.m_weights, problem);
         if (attachment.m_compliance > 0)  // an implicit spring, see node_springs.cpp
         {
             joint.m_wanted = (1 / scene.m_step) * (target - held.m_point);
@@ -96,11 +81,6 @@ JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& 
         scene.m_bodies[other]->m_joints.m_now.push_back(held);
     }
     return flags;
-}
-
-bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other)
-{
-    return isPointAttached(fem, pointOf(0, nodes, {1, 0, 0}), other);
 }
 
 bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other)

@@ -11,9 +11,8 @@ namespace bullet_fem
 /// half of the distance between them. Removes attachments to bodies that no longer exist. Call after solveFreeMotion.
 JointFlags appendAttachments(int body, const JointScene& scene, ContactProblem& problem);
 
-/// True if one of the nodes is attached to the other body, or carries a point to which a node of the other body is
-/// attached. Contact must not act there.
-bool isAttached(const FemSoftBody& fem, const std::array<int, 3>& nodes, const FemSoftBody& other);
+/// True if one of the point's nodes is attached to the other body, or carries a point to which a node of the other body
+/// is attached. Contact must not act there.
 bool isPointAttached(const FemSoftBody& fem, const SurfacePoint& point, const FemSoftBody& other);
 
 }  // namespace bullet_fem

@@ -15,22 +15,11 @@ Vec3 pointOf(const NodeSpring& spring, const std::vector<Vec3>& x)
            spring.m_weights[2] * x[spring.m_nodes[2]];
 }
 
-// A joint's side at the spring's point; without nodes if none of them can move.
-JointEnd pointEnd(const NodeSpring& spring, int body, const BodyState& state, ContactProblem& problem)
+bool canMove(const NodeSpring& spring, const BodyState& state)
 {
-    JointEnd end;
-    end.m_body = body;
-    end.m_first = static_cast<int>(problem.m_handleNodes.size());
     bool moves = false;
     for (int a = 0; a < 3; ++a) moves = moves || (spring.m_weights[a] != 0 && !state.m_fixed[spring.m_nodes[a]]);
-    for (int a = 0; moves && a < 3; ++a)
-    {
-        if (spring.m_weights[a] == 0) continue;
-        problem.m_handleNodes.push_back(spring.m_nodes[a]);
-        problem.m_handleBlocks.push_back(Mat3::diagonal(spring.m_weights[a]));
-        ++end.m_count;
-    }
-    return end;
+    return moves;
 }
 
 }  // namespace
@@ -50,9 +39,9 @@ void appendSprings(int body, const JointScene& scene, ContactProblem& problem)
         held.m_error = norm(spring.m_target - held.m_point);
         const double s = h * spring.m_stiffness + spring.m_damping;
         Joint joint;
-        if (s > 0) joint.m_a = pointEnd(spring, body, fem.m_body.m_state, problem);
-        if (joint.m_a.m_count > 0)
+        if (s > 0 && canMove(spring, fem.m_body.m_state))
         {
+            joint.m_a = pointEnd(body, spring.m_nodes, spring.m_weights, problem);
             if (const HeldJoint* before = continuedBy(held, fem.m_joints.m_before, fem.m_joints.m_now.size()))
                 joint.m_impulse = before->m_impulse;
             joint.m_wanted = spring.m_stiffness / s * (spring.m_target - held.m_point);

@@ -28,7 +28,7 @@ Vec3 turned(const Vec3& v, const Vec3& w)
 // True if the object is at its pose of the end of the step; kinematic objects always are.
 bool hasMoved(const btCollisionObject& object, const JointScene& scene)
 {
-    return scene.m_phase == RigidPhase::moved || object.isStaticOrKinematicObject();
+    return scene.m_rigid.phase() == RigidPhase::moved || object.isStaticOrKinematicObject();
 }
 
 }  // namespace
@@ -53,8 +53,7 @@ RigidPivot rigidPivot(const btCollisionObject* object, const Vec3& local, const 
     const btRigidBody* body = btRigidBody::upcast(object);
     if (body && !hasMoved(*object, scene)) pivot.m_angularVelocity = vec3(body->getAngularVelocity());
     const btTransform& pose = object->getWorldTransform();
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) pivot.m_rotation(i, j) = pose.getBasis()[i][j];
+    pivot.m_rotation = mat3(pose.getBasis());
     pivot.m_center = vec3(pose.getOrigin());
     const Vec3 arm = pivot.m_rotation * local, now = pivot.m_center + arm;
     pivot.m_now = now;

@@ -150,17 +150,6 @@ JointFlags appendAnchors(int body, const JointScene& scene, ContactProblem& prob
     return holder.m_flags;
 }
 
-JointEnd nodeEnd(int body, int node, ContactProblem& problem)
-{
-    JointEnd end;
-    end.m_body = body;
-    end.m_first = static_cast<int>(problem.m_handleNodes.size());
-    end.m_count = 1;
-    problem.m_handleNodes.push_back(node);
-    problem.m_handleBlocks.push_back(Mat3::identity());
-    return end;
-}
-
 double longestCorrection(const FemSoftBody& fem, double step, double softness)
 {
     const double share = std::min(kLongestCorrection, step * kFastestCorrection);

@@ -13,8 +13,29 @@ namespace bullet_fem
 /// world. Sets m_battach for anchored nodes and clears it for nodes anchored before. Call after solveFreeMotion.
 JointFlags appendAnchors(int body, const JointScene& scene, ContactProblem& problem);
 
+/// Side of a joint at a weighted sum of nodes.
+template <std::size_t kCount>
+JointEnd pointEnd(int body, const std::array<int, kCount>& nodes, const std::array<double, kCount>& weights,
+                  ContactProblem& problem)
+{
+    JointEnd end;
+    end.m_body = body;
+    end.m_first = static_cast<int>(problem.m_handleNodes.size());
+    for (std::size_t a = 0; a < kCount; ++a)
+    {
+        if (weights[a] == 0) continue;
+        problem.m_handleNodes.push_back(nodes[a]);
+        problem.m_handleBlocks.push_back(Mat3::diagonal(weights[a]));
+        ++end.m_count;
+    }
+    return end;
+}
+
 /// Side of a joint at one node.
-JointEnd nodeEnd(int body, int node, ContactProblem& problem);
+inline JointEnd nodeEnd(int body, int node, ContactProblem& problem)
+{
+    return pointEnd<1>(body, {node}, {1}, problem);
+}
 
 /// Largest correction that a joint of this softness applies in a step of `step` [s] to its error [m]; a rigid joint
 /// reaches it fully.

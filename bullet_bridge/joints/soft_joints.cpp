@@ -26,7 +26,7 @@ bool hasAny(const FemSoftBody& fem)
 
 void SoftJoints::append(const Group& group, ContactProblem& problem, std::vector<JointFlags>& flags)
 {
-    const JointScene scene = {group.m_bodies, group.m_outside, group.m_rigid, m_world, group.m_step, group.m_phase};
+    const JointScene scene = {group.m_bodies, group.m_outside, group.m_rigid, m_world, group.m_step};
     flags.assign(group.m_bodies.size(), JointFlags());
     for (FemSoftBody* fem : group.m_bodies)
     {

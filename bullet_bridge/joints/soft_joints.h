@@ -27,7 +27,6 @@ public:
         const std::vector<FemSoftBody*>& m_outside;
         RigidProxies& m_rigid;
         double m_step;
-        RigidPhase m_phase;
     };
 
     /// Appends the joints of all bodies to the problem, and their objects to the group's rigid proxies. `flags` gets

@@ -113,7 +113,7 @@ int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld
         a.m_joints.m_attachments.push_back(tie);
     }
     a.m_joints.m_welds.push_back(std::move(weld));
-    a.m_surface.forgetPlace();  // welded surfaces have no contact
+    a.m_notedPlace.forget();  // welded surfaces have no contact
     return a.m_joints.m_lastId;
 }
 
@@ -126,9 +126,8 @@ int WeldClusters::root(int body) const
 // Index of an attachment's other body; -1 if it no longer exists.
 int WeldClusters::indexOf(const NodeAttachment& tie) const
 {
-    const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(tie.m_other, 0));
-    if (at == m_byAddress.end() || at->first != tie.m_other) return -1;
-    return m_bodies[at->second]->m_mark == tie.m_otherMark ? at->second : -1;
+    const int b = m_byAddress.find(tie.m_other);
+    return b >= 0 && m_bodies[b]->m_mark == tie.m_otherMark ? b : -1;
 }
 
 void WeldClusters::find(const std::vector<FemSoftBody*>& bodies, const std::vector<FemSoftBody*>& others)
@@ -148,10 +147,9 @@ void WeldClusters::find(const std::vector<FemSoftBody*>& bodies, const std::vect
     m_parent.clear();
     for (int b = 0; b < count; ++b)
     {
-        m_byAddress.emplace_back(m_bodies[b]->m_softBody, b);
+        m_byAddress.add(m_bodies[b]->m_softBody, b);
         m_parent.push_back(b);
     }
-    std::sort(m_byAddress.begin(), m_byAddress.end());
     const auto mark = [](FemSoftBody& fem, int node)
     {
         if (fem.m_joints.m_isWelded.empty()) fem.m_joints.m_isWelded.assign(fem.m_body.m_state.m_x.size(), 0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/rigid/sorted_index.h"
 
 namespace bullet_fem
 {
@@ -38,7 +39,7 @@ private:
     int indexOf(const NodeAttachment& tie) const;
 
     std::vector<FemSoftBody*> m_bodies;
-    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;
+    SortedIndex<const btSoftBody*> m_byAddress;
     std::vector<int> m_parent;
 };
 

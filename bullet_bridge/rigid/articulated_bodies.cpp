@@ -3,7 +3,6 @@
 #include "bullet_bridge/rigid/articulated_bodies.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "BulletDynamics/Featherstone/btMultiBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
@@ -11,63 +10,6 @@
 
 namespace bullet_fem
 {
-namespace
-{
-
-constexpr int kBase = 6;  // generalized velocities of the base
-
-void addGravity(btMultiBody& body, const Vec3& gravity)
-{
-    if (dot(gravity, gravity) == 0) return;
-    body.addBaseForce(body.getBaseMass() * bulletVector(gravity));
-    for (int k = 0; k < body.getNumLinks(); ++k) body.addLinkForce(k, body.getLinkMass(k) * bulletVector(gravity));
-}
-
-}  // namespace
-
-bool ArticulatedBodies::sleeps(const btMultiBody& body)
-{
-    const auto isAsleep = [](const btCollisionObject* collider)
-    { return collider && collider->getActivationState() == ISLAND_SLEEPING; };
-    bool asleep = isAsleep(body.getBaseCollider());
-    for (int k = 0; k < body.getNumLinks() && !asleep; ++k) asleep = isAsleep(body.getLinkCollider(k));
-    return asleep;
-}
-
-bool ArticulatedBodies::canMove(const btMultiBodyLinkCollider& link)
-{
-    const btMultiBody* body = link.m_multiBody;
-    if (!body || link.isStaticOrKinematicObject() || link.m_link >= body->getNumLinks()) return false;
-    if (!body->isAwake() && !body->getCanWakeup()) return false;
-    return link.m_link < 0 ? !body->isBaseStaticOrKinematic() : true;
-}
-
-void ArticulatedBodies::beginStep()
-{
-    m_before.clear();
-    m_beforeVelocity.clear();
-    for (Memory& memory : m_memories)
-    {
-        if (!memory.m_used) memory.m_body = nullptr;
-        memory.m_used = false;
-    }
-}
-
-void ArticulatedBodies::assumeForcesGiven(const Vec3& gravity)
-{
-    m_forcesGiven = true;
-    m_takenGravity = gravity;
-}
-
-void ArticulatedBodies::noteBeforeSolve(const btMultiBody& body)
-{
-    for (const Before& known : m_before)
-        if (known.m_body == &body) return;
-    m_before.push_back({&body, m_beforeVelocity.size()});
-    const btScalar* velocity = body.getVelocityVector();
-    m_beforeVelocity.insert(m_beforeVelocity.end(), velocity, velocity + kBase + body.getNumDofs());
-}
-
 void ArticulatedBodies::clear()
 {
     m_trees.clear();
@@ -80,25 +22,12 @@ void ArticulatedBodies::clear()
 
 LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy)
 {
-    int tree = find(*link.m_multiBody);
-    if (tree < 0)
-    {
-        tree = treeOf(*link.m_multiBody);
-        predict(m_trees[tree], step);
-    }
-    return addLink(index, link, tree, rigidProxy);
-}
-
-LinkMotion ArticulatedBodies::addBeforeSolve(int index, const btMultiBodyLinkCollider& link, RigidProxy& rigidProxy)
-{
-    const int known = find(*link.m_multiBody);
-    return addLink(index, link, known < 0 ? treeOf(*link.m_multiBody) : known, rigidProxy);
-}
-
-LinkMotion ArticulatedBodies::addLink(int index, const btMultiBodyLinkCollider& link, int tree, RigidProxy& rigidProxy)
-{
+    const int tree = treeOf(*link.m_multiBody, step);
     Link added = {index, tree, link.m_link, m_jacobian.size(), {}, {}, {}, {}};
-    fillRows(added, rigidProxy.m_center);
+    m_jacobian.resize(added.m_first + 6 * m_trees[tree].m_coordinates, 0);
+    m_answer.resize(m_jacobian.size(), 0);
+    m_dynamics.fillRows(*link.m_multiBody, added.m_index, rigidProxy.m_center, &m_jacobian[added.m_first],
+                        &m_answer[added.m_first]);
     m_links.push_back(added);
     const LinkMotion next = motion(added, m_freeVelocity);
     rigidProxy.m_linearVelocity = next.m_linear;
@@ -109,116 +38,28 @@ LinkMotion ArticulatedBodies::addLink(int index, const btMultiBodyLinkCollider& 
     return motion(added, m_velocity);
 }
 
-int ArticulatedBodies::find(const btMultiBody& body) const
+// Index of a multibody, which is added at the first call; with its predicted velocity if `step` is not 0.
+int ArticulatedBodies::treeOf(btMultiBody& body, double step)
 {
-    for (std::size_t k = 0; k < m_trees.size(); ++k)
-        if (m_trees[k].m_body == &body) return static_cast<int>(k);
-    return -1;
-}
-
-int ArticulatedBodies::treeOf(btMultiBody& body)
-{
-    const Tree tree = {&body, kBase + body.getNumDofs(), m_velocity.size()};
+    const auto known = std::find_if(m_trees.begin(), m_trees.end(), [&](const Tree& t) { return t.m_body == &body; });
+    if (known != m_trees.end()) return static_cast<int>(known - m_trees.begin());
+    const Tree tree = {&body, kBaseCoordinates + body.getNumDofs(), m_velocity.size()};
     m_trees.push_back(tree);
     const btScalar* velocity = body.getVelocityVector();
     m_velocity.insert(m_velocity.end(), velocity, velocity + tree.m_coordinates);
     m_freeVelocity.insert(m_freeVelocity.end(), velocity, velocity + tree.m_coordinates);
-    reserve(tree);
-    factor(body);
-    return static_cast<int>(m_trees.size()) - 1;
-}
-
-// Reserves memory that a later step may need.
-void ArticulatedBodies::reserve(const Tree& tree)
-{
-    for (auto* values : {&m_rounded, &m_change}) values->reserve(tree.m_coordinates);
+    for (auto* values : {&m_impulse, &m_change}) values->reserve(tree.m_coordinates);
     m_force.reserve(tree.m_coordinates);
-    m_turns.reserve(tree.m_body->getNumLinks() + 1);
-    m_before.reserve(m_trees.size());
-    m_beforeVelocity.reserve(m_velocity.size());
-    memoryOf(*tree.m_body, tree.m_coordinates);
-}
-
-// Computes accelerations and the factors for impulse responses at the present pose by Bullet's articulated body
-// algorithm with a time step of 0, which changes no velocity. Joint feedback is detached meanwhile, because the user
-// reads it. Accelerations of kinematic joints are set to 0: Bullet does not compute them.
-void ArticulatedBodies::factor(btMultiBody& body)
-{
-    m_feedback.resize(body.getNumLinks());
-    for (int k = 0; k < body.getNumLinks(); ++k)
-        m_feedback[k] = std::exchange(body.getLink(k).m_jointFeedback, nullptr);
-    addGravity(body, m_takenGravity);
-    body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, m_scalars, m_vectors, m_matrices, false, false, false);
-    addGravity(body, -m_takenGravity);
-    for (int k = 0; k < body.getNumLinks(); ++k) body.getLink(k).m_jointFeedback = m_feedback[k];
-    const btScalar* acceleration = &m_scalars[body.getNumDofs()];
-    m_acceleration.assign(acceleration, acceleration + kBase + body.getNumDofs());
-    for (int k = 0; k < body.getNumLinks(); ++k)
-        if (body.isLinkAndAllAncestorsKinematic(k))
-            std::fill_n(m_acceleration.begin() + kBase + body.getLink(k).m_dofOffset, body.getLink(k).m_dofCount, 0.0);
-}
-
-void ArticulatedBodies::predict(const Tree& tree, double step)
-{
-    if (sleeps(*tree.m_body)) return;
-    for (int k = 0; k < tree.m_coordinates; ++k)
-        if (k >= kBase || !tree.m_body->isBaseStaticOrKinematic())
-            m_freeVelocity[tree.m_first + k] += step * m_acceleration[k];
-    addSupport(tree, step);
-}
-
-// Adds the support by contacts, motors and limits in joint coordinates, as RigidProxies::supportOf does for rigid
-// bodies.
-void ArticulatedBodies::addSupport(const Tree& tree, double step)
-{
-    const auto before =
-        std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_body == tree.m_body; });
-    if (before == m_before.end()) return;
-    const double* velocity = &m_beforeVelocity[before->m_first];
-    support(tree, 0, 3, velocity, step);
-    support(tree, 3, 3, velocity, step);
-    for (int k = kBase; k < tree.m_coordinates; ++k) support(tree, k, 1, velocity, step);
-}
-
-void ArticulatedBodies::support(const Tree& tree, int first, int count, const double* before, double step)
-{
-    const Memory& memory = memoryOf(*tree.m_body, tree.m_coordinates);
-    const auto needed = [&](int k) { return -(step * m_acceleration[k] + memory.m_given[k]); };
-    double done = 0, whole = 0;
-    for (int k = first; k < first + count; ++k)
+    m_history.reserve(body, m_trees.size(), m_velocity.size());
+    m_dynamics.factor(body);
+    if (step > 0 && !sleeps(body))
     {
-        const double byForces = m_forcesGiven ? 0 : step * m_acceleration[k];
-        done += (m_velocity[tree.m_first + k] - before[k] - byForces) * needed(k);
-        whole += needed(k) * needed(k);
+        const std::vector<double>& acceleration = m_dynamics.acceleration();
+        for (int k = body.isBaseStaticOrKinematic() ? kBaseCoordinates : 0; k < tree.m_coordinates; ++k)
+            m_freeVelocity[tree.m_first + k] += step * acceleration[k];
+        m_history.addSupport(body, step, acceleration, &m_freeVelocity[tree.m_first]);
     }
-    if (!(whole > 0)) return;
-    const double share = std::clamp(done / whole, 0.0, 1.0);
-    for (int k = first; k < first + count; ++k) m_freeVelocity[tree.m_first + k] += share * needed(k);
-}
-
-// Fills six rows of J and of J M^-1 for a link. Bullet omits joints that it does not move, and the rotation of planar
-// joints, which is added here.
-void ArticulatedBodies::fillRows(const Link& link, const Vec3& center)
-{
-    const Tree& tree = m_trees[link.m_tree];
-    const btMultiBody& body = *tree.m_body;
-    const std::size_t n = tree.m_coordinates;
-    m_jacobian.resize(std::max(m_jacobian.size(), link.m_first + 6 * n), 0);
-    m_answer.resize(m_jacobian.size(), 0);
-    for (int row = 0; row < 6; ++row)
-    {
-        btScalar *J = &m_jacobian[link.m_first + row * n], *answer = &m_answer[link.m_first + row * n];
-        btVector3 axis(0, 0, 0);
-        axis[row % 3] = 1;
-        const btVector3 none(0, 0, 0);
-        body.fillConstraintJacobianMultiDof(link.m_index, bulletVector(center), row < 3 ? none : axis,
-                                            row < 3 ? axis : none, J, m_scalars, m_vectors, m_matrices);
-        for (int k = link.m_index; k >= 0 && row >= 3; k = body.getParent(k))
-            if (body.getLink(k).m_jointType == btMultibodyLink::ePlanar)
-                J[kBase + body.getLink(k).m_dofOffset] +=
-                    body.worldDirToLocal(k, axis).dot(body.getLink(k).getAxisTop(0));
-        body.calcAccelerationDeltasMultiDof(J, answer, m_scalars, m_vectors);
-    }
+    return static_cast<int>(m_trees.size()) - 1;
 }
 
 LinkMotion ArticulatedBodies::motion(const Link& link, const std::vector<double>& velocity) const
@@ -231,28 +72,28 @@ LinkMotion ArticulatedBodies::motion(const Link& link, const std::vector<double>
     return {{sums[0], sums[1], sums[2]}, {sums[3], sums[4], sums[5]}};
 }
 
-Mat3 ArticulatedBodies::block(const Link& moved, int rowOfMoved, const Link& pushed, int rowOfPushed) const
-{
-    const int n = m_trees[moved.m_tree].m_coordinates;
-    Mat3 result;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            for (int k = 0; k < n; ++k)
-                result(i, j) += double(m_jacobian[moved.m_first + (rowOfMoved + i) * n + k]) *
-                                double(m_answer[pushed.m_first + (rowOfPushed + j) * n + k]);
-    return result;
-}
-
 RigidResponse ArticulatedBodies::response(const Link& moved, const Link& pushed) const
 {
-    return {moved.m_rigidProxy, block(moved, 0, pushed, 0), block(moved, 0, pushed, 3), block(moved, 3, pushed, 0),
-            block(moved, 3, pushed, 3)};
+    const int n = m_trees[moved.m_tree].m_coordinates;
+    const auto block = [&](int rowOfMoved, int rowOfPushed)
+    {
+        Mat3 result;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                for (int k = 0; k < n; ++k)
+                    result(i, j) += double(m_jacobian[moved.m_first + (rowOfMoved + i) * n + k]) *
+                                    double(m_answer[pushed.m_first + (rowOfPushed + j) * n + k]);
+        return result;
+    };
+    return {moved.m_rigidProxy, block(0, 0), block(0, 3), block(3, 0), block(3, 3)};
 }
 
 void ArticulatedBodies::setCenter(int index, const Vec3& center)
 {
     for (const Link& link : m_links)
-        if (link.m_rigidProxy == index) fillRows(link, center);
+        if (link.m_rigidProxy == index)
+            m_dynamics.fillRows(*m_trees[link.m_tree].m_body, link.m_index, center, &m_jacobian[link.m_first],
+                                &m_answer[link.m_first]);
 }
 
 void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const
@@ -265,6 +106,137 @@ void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vect
         for (const Link& moved : m_links)
             if (moved.m_tree == pushed.m_tree) responses.push_back(response(moved, pushed));
         rigidProxy.m_responseCount = static_cast<int>(responses.size()) - rigidProxy.m_firstResponse;
+    }
+}
+
+void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& angular)
+{
+    for (Link& link : m_links)
+    {
+        if (link.m_rigidProxy != index) continue;
+        link.m_impulse += impulse;
+        link.m_angularImpulse += angular;
+    }
+}
+
+void ArticulatedBodies::apply(const std::vector<RigidProxy>& rigidProxies, double step)
+{
+    for (Link& link : m_links) link.m_angularImpulse += rigidProxies[link.m_rigidProxy].m_angularImpulse;
+    for (std::size_t k = 0; k < m_trees.size(); ++k)
+    {
+        const Tree& tree = m_trees[k];
+        if (solve(tree, static_cast<int>(k), nullptr))
+        {
+            m_history.addVelocity(*tree.m_body, m_change);
+            m_history.noteGiven(*tree.m_body, m_change);
+            wakeIfAsleep(*tree.m_body);
+        }
+        if (solve(tree, static_cast<int>(k), &rigidProxies)) displace(tree, step);
+    }
+}
+
+// Solves for the change of a tree's coordinates by the impulses on its links, or by their position corrections if
+// `pushed` is given. False if all are 0.
+bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed)
+{
+    const int n = tree.m_coordinates;
+    m_force.assign(n, 0);
+    m_change.assign(n, 0);
+    for (const Link& link : m_links)
+    {
+        if (link.m_tree != number) continue;
+        const Vec3 impulse = pushed ? (*pushed)[link.m_rigidProxy].m_pushImpulse : link.m_impulse;
+        const Vec3 angular = pushed ? (*pushed)[link.m_rigidProxy].m_pushAngularImpulse : link.m_angularImpulse;
+        for (int row = 0; row < 6; ++row)
+            for (int k = 0; k < n; ++k)
+                m_force[k] +=
+                    double(m_jacobian[link.m_first + row * n + k]) * (row < 3 ? impulse[row] : angular[row - 3]);
+    }
+    if (std::all_of(m_force.begin(), m_force.end(), [](double f) { return f == 0; })) return false;
+    m_impulse.assign(m_force.begin(), m_force.end());
+    m_dynamics.respond(*tree.m_body, &m_impulse[0], &m_change[0]);
+    return true;
+}
+
+// Moves the joints by m_change as their velocity for one step. Momentum depends on the pose, so a multibody with a free
+// base gets the lost momentum back at the base.
+void ArticulatedBodies::displace(const Tree& tree, double step)
+{
+    btMultiBody& body = *tree.m_body;
+    const MultiBodyDynamics::Momentum before = m_dynamics.momentumOf(body);
+    m_dynamics.displace(body, m_change, step);
+    if (body.isBaseStaticOrKinematic()) return;
+    m_dynamics.factor(body);
+    const MultiBodyDynamics::Momentum after = m_dynamics.momentumOf(body);
+    const Vec3 lost = before.m_linear - after.m_linear;
+    const Vec3 lostSpin = before.m_angular - after.m_angular - cross(vec3(body.getBasePos()), lost);
+    m_impulse.assign(tree.m_coordinates, 0);
+    for (int c = 0; c < 3; ++c)
+    {
+        m_impulse[c] = static_cast<btScalar>(lostSpin[c]);
+        m_impulse[3 + c] = static_cast<btScalar>(lost[c]);
+    }
+    m_change.assign(tree.m_coordinates, 0);
+    m_dynamics.respond(body, &m_impulse[0], &m_change[0]);
+    m_history.addVelocity(body, m_change);
+}
+
+// Within Bullet's rigid solver, its rows and the impulses of soft bodies change joint velocities in one
+// single-precision array.
+
+void ArticulatedBodies::beginSolve(btAlignedObjectArray<btScalar>& deltas)
+{
+    m_deltas = &deltas;
+    m_beyondDeltas.assign(m_velocity.size(), 0);
+    m_solved.assign(m_velocity.size(), 0);
+    for (Link& link : m_links) link.m_accumulatedImpulse = link.m_accumulatedAngularImpulse = {};
+}
+
+// Total change of coordinate k. A multibody without rows in Bullet's solver has no entry in *m_deltas.
+double ArticulatedBodies::changeIn(const Tree& tree, int k) const
+{
+    const int first = tree.m_body->getCompanionId();
+    const double known = first >= 0 ? double((*m_deltas)[first + k]) : 0;
+    return known + m_beyondDeltas[tree.m_first + k];
+}
+
+void ArticulatedBodies::readSolved(std::vector<RigidProxy>& rigidProxies) const
+{
+    for (const Tree& tree : m_trees)
+        for (int k = 0; k < tree.m_coordinates; ++k)
+            m_solved[tree.m_first + k] = m_velocity[tree.m_first + k] + changeIn(tree, k);
+    for (const Link& link : m_links)
+    {
+        const LinkMotion now = motion(link, m_solved);
+        rigidProxies[link.m_rigidProxy].m_linearVelocity = now.m_linear;
+        rigidProxies[link.m_rigidProxy].m_angularVelocity = now.m_angular;
+    }
+}
+
+void ArticulatedBodies::writeSolved(const std::vector<RigidProxy>& rigidProxies)
+{
+    for (Link& link : m_links)
+    {
+        const RigidProxy& proxy = rigidProxies[link.m_rigidProxy];
+        const Vec3 impulse = proxy.m_accumulatedImpulse - link.m_accumulatedImpulse,
+                   angular = proxy.m_accumulatedAngularImpulse - link.m_accumulatedAngularImpulse;
+        link.m_accumulatedImpulse = proxy.m_accumulatedImpulse;
+        link.m_accumulatedAngularImpulse = proxy.m_accumulatedAngularImpulse;
+        const Tree& tree = m_trees[link.m_tree];
+        for (int row = 0; row < 6; ++row)
+            for (int k = 0; k < tree.m_coordinates; ++k)
+                m_beyondDeltas[tree.m_first + k] += double(m_answer[link.m_first + row * tree.m_coordinates + k]) *
+                                                    (row < 3 ? impulse[row] : angular[row - 3]);
+    }
+    for (const Tree& tree : m_trees)
+    {
+        const int first = tree.m_body->getCompanionId();
+        for (int k = 0; first >= 0 && k < tree.m_coordinates; ++k)
+        {
+            const double exact = changeIn(tree, k);
+            (*m_deltas)[first + k] = static_cast<btScalar>(exact);
+            m_beyondDeltas[tree.m_first + k] = exact - double((*m_deltas)[first + k]);
+        }
     }
 }
 

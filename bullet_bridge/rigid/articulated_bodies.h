@@ -4,23 +4,13 @@
 
 #include <vector>
 
-#include "LinearMath/btAlignedObjectArray.h"
-#include "LinearMath/btMatrix3x3.h"
+#include "bullet_bridge/rigid/articulated_history.h"
+#include "bullet_bridge/rigid/multibody_dynamics.h"
+#include "bullet_bridge/rigid/rigid_objects.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
-
-class btMultiBody;
-class btMultiBodyLinkCollider;
-struct btMultiBodyJointFeedback;
 
 namespace bullet_fem
 {
-
-/// Velocity of a rigid body.
-struct LinkMotion
-{
-    Vec3 m_linear;   ///< of the centre of mass [m/s]
-    Vec3 m_angular;  ///< [rad/s]
-};
 
 /// Bullet's multibodies with links that are in contact with soft bodies or held by them. In joint coordinates q an
 /// impulse f and an angular impulse t on link a change the velocities by
@@ -30,30 +20,23 @@ struct LinkMotion
 class ArticulatedBodies
 {
 public:
-    /// True if impulses move the link. False if it is static or kinematic, if it is a base that is fixed, or if its
-    /// multibody sleeps and must not wake up.
-    static bool canMove(const btMultiBodyLinkCollider& link);
-
-    /// True if Bullet does not step the multibody because a collider of it sleeps.
-    static bool sleeps(const btMultiBody& body);
-
     /// Forgets velocities noted before the rigid solver, and the memory of multibodies that felt no impulse in the last
     /// step.
-    void beginStep();
+    void beginStep() { m_history.beginStep(); }
 
     /// Call for Bullet's deformable world. It adds forces and gravity to velocities before noteBeforeSolve(), and then
     /// subtracts the world's `gravity` [m/s2] from the forces.
-    void assumeForcesGiven(const Vec3& gravity);
+    void assumeForcesGiven(const Vec3& gravity)
+    {
+        m_history.assumeForcesGiven();
+        m_dynamics.setTakenGravity(gravity);
+    }
 
     /// Notes the velocity of a multibody before Bullet's rigid solver. Not thread-safe.
-    void noteBeforeSolve(const btMultiBody& body);
+    void noteBeforeSolve(const btMultiBody& body) { m_history.noteBeforeSolve(body); }
 
     /// Forgets all links.
     void clear();
-
-    /// Like add(), for a multibody that Bullet's rigid solver is about to solve: the proxy's velocity is the present
-    /// one, which contains all forces.
-    LinkMotion addBeforeSolve(int index, const btMultiBodyLinkCollider& link, RigidProxy& rigidProxy);
 
     /// Call within Bullet's rigid solver once its rows are set up. `deltas` are the changes of the multibodies'
     /// velocities by the rows, indexed by companion id. Impulses of soft bodies are added to them, so that Bullet's
@@ -67,7 +50,8 @@ public:
     /// Makes rigid proxy `index` that of a movable link, and returns the link's present velocity. The proxy's velocity
     /// is the predicted one without soft bodies: forces, gravity and Coriolis terms act for `step` [s], and contacts,
     /// motors and limits support each joint as in this step, as far as they balance the forces and the last impulses of
-    /// soft bodies. The order of calls is that of the responses.
+    /// soft bodies. If `step` is 0 it is the present one, which contains all forces within Bullet's rigid solver. The
+    /// order of calls is that of the responses.
     LinkMotion add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy);
 
     /// Moves the reference point of velocities and impulses of rigid proxy `index` to `center` [m]; it moves with the
@@ -88,19 +72,6 @@ public:
     void apply(const std::vector<RigidProxy>& rigidProxies, double step);
 
 private:
-    struct Before
-    {
-        const btMultiBody* m_body;
-        std::size_t m_first;  // index in m_beforeVelocity
-    };
-    // State that persists from step to step.
-    struct Memory
-    {
-        const btMultiBody* m_body = nullptr;  // compared, never followed; null: free
-        bool m_used = false;                  // an impulse was applied in this step
-        std::vector<double> m_given;  // velocity change by soft bodies in the last step, per coordinate [m/s], [rad/s]
-        std::vector<double> m_remainder;  // rounding error of the velocity, per coordinate [m/s], [rad/s]
-    };
     struct Tree
     {
         btMultiBody* m_body;
@@ -116,35 +87,15 @@ private:
         Vec3 m_accumulatedImpulse, m_accumulatedAngularImpulse;  // of the rigid proxy, when it was written last
     };
 
-    struct Momentum
-    {
-        Vec3 m_linear, m_angular;  // about the world's origin
-    };
-
-    LinkMotion addLink(int index, const btMultiBodyLinkCollider& link, int tree, RigidProxy& rigidProxy);
-    int treeOf(btMultiBody& body);
-    int find(const btMultiBody& body) const;
+    int treeOf(btMultiBody& body, double step);
     double changeIn(const Tree& tree, int k) const;
-    void reserve(const Tree& tree);
-    void factor(btMultiBody& body);
-    void predict(const Tree& tree, double step);
-    void addSupport(const Tree& tree, double step);
-    void support(const Tree& tree, int first, int count, const double* before, double step);
-    void fillRows(const Link& link, const Vec3& center);
-    Mat3 block(const Link& moved, int rowOfMoved, const Link& pushed, int rowOfPushed) const;
     RigidResponse response(const Link& moved, const Link& pushed) const;
     LinkMotion motion(const Link& link, const std::vector<double>& velocity) const;
     bool solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed);
-    void addVelocity(const Tree& tree);
     void displace(const Tree& tree, double step);
-    Momentum momentum(const btMultiBody& body);
-    Memory& memoryOf(const btMultiBody& body, int coordinates);
 
-    bool m_forcesGiven = false;  // forces are in the velocities of noteBeforeSolve()
-    Vec3 m_takenGravity;         // gravity that the forces lack then
-    std::vector<Before> m_before;
-    std::vector<double> m_beforeVelocity;
-    std::vector<Memory> m_memories;
+    ArticulatedHistory m_history;
+    MultiBodyDynamics m_dynamics;
     std::vector<Tree> m_trees;
     std::vector<Link> m_links;
     std::vector<double> m_velocity, m_freeVelocity;      // per tree, per coordinate
@@ -152,15 +103,9 @@ private:
     std::vector<double> m_beyondDeltas;          // per tree, per coordinate: part of the applied change that is not in
                                                  // *m_deltas
     mutable std::vector<double> m_solved;        // scratch of readSolved
-    std::vector<double> m_acceleration;          // of one tree
     std::vector<btScalar> m_jacobian, m_answer;  // J, and J M^-1
     std::vector<double> m_force;                 // generalized force on one tree
-    std::vector<btScalar> m_rounded, m_change;   // scratch per coordinate of one tree
-    std::vector<btMultiBodyJointFeedback*> m_feedback;
-    btAlignedObjectArray<btScalar> m_scalars;  // scratch of Bullet's functions, as the next three
-    btAlignedObjectArray<btVector3> m_vectors;
-    btAlignedObjectArray<btMatrix3x3> m_matrices;
-    btAlignedObjectArray<btQuaternion> m_turns;
+    std::vector<btScalar> m_impulse, m_change;   // scratch per coordinate of one tree
 };
 
 }  // namespace bullet_fem

@@ -86,7 +86,7 @@ RigidProxy proxyBefore(const RigidProxies& rigid, int index)
 {
     RigidProxy proxy = rigid.rigidProxies()[index];
     // The rigid proxy with the object's velocity as the step begins; a rigid body's forces are not in it yet.
-    const btRigidBody* body = rigid.movableBody(index);
+    const btRigidBody* body = movableBody(rigid.object(index));
     if (body)
         setMotion({vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())}, proxy);
     else
@@ -277,7 +277,7 @@ void Rebounds::setPair(const FemSoftBody& fem, const Impact& impact, const Other
     if (other.m_rigid)
     {
         rigid.indexOf(*other.m_rigid, step);
-        rigid.connectLinks(m_problem.m_responses);
+        rigid.links().connect(rigid.rigidProxies(), m_problem.m_responses);
         proxies.push_back(rigid.rigidProxies().front());
         setMotion(rigid.motionNow(0), proxies[kOther]);
     }

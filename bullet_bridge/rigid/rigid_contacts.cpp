@@ -27,12 +27,6 @@ bool isSolid(const btCollisionObject& object)
            !btMultiBodyLinkCollider::upcast(&object);
 }
 
-bool isMovable(const btCollisionObject& object)
-{
-    const btRigidBody* body = btRigidBody::upcast(&object);
-    return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0;
-}
-
 // Velocity at a point of a kinematic object; 0 for other objects without a rigid proxy [m/s].
 Vec3 velocityOf(const btCollisionObject& object, const Vec3& point)
 {
@@ -47,27 +41,14 @@ void RigidContactFinder::find(btDispatcher& dispatcher, double step, RigidProxie
                               std::vector<RigidContact>& touches)
 {
     m_pairs.clear();
-    listMovable(rigidProxies);
-    if (m_byAddress.empty()) return;
     listPairs(dispatcher);
-    lookUp();
+    lookUp(rigidProxies);
     for (int far = 0; far < kFar && rigidProxies.phase() == RigidPhase::moved && spread(step, rigidProxies); ++far)
-    {
-        listMovable(rigidProxies);
-        lookUp();
-    }
+        lookUp(rigidProxies);
     keepTouching();
     for (const Pair& pair : m_pairs)
         for (int k = 0; k < pair.m_manifold->getNumContacts(); ++k)
             add(pair, pair.m_manifold->getContactPoint(k), step, rigidProxies, touches);
-}
-
-void RigidContactFinder::listMovable(const RigidProxies& rigidProxies)
-{
-    m_byAddress.clear();
-    for (int k = 0; k < static_cast<int>(rigidProxies.rigidProxies().size()); ++k)
-        if (rigidProxies.movableBody(k)) m_byAddress.push_back({&rigidProxies.object(k), k});
-    std::sort(m_byAddress.begin(), m_byAddress.end());
 }
 
 void RigidContactFinder::listPairs(btDispatcher& dispatcher)
@@ -80,13 +61,10 @@ void RigidContactFinder::listPairs(btDispatcher& dispatcher)
     }
 }
 
-void RigidContactFinder::lookUp()
+void RigidContactFinder::lookUp(const RigidProxies& rigidProxies)
 {
-    const auto obstacleOf = [this](const btCollisionObject* object)
-    {
-        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(object, 0));
-        return at != m_byAddress.end() && at->first == object ? at->second : -1;
-    };
+    const auto obstacleOf = [&](const btCollisionObject* object)
+    { return movableBody(*object) ? rigidProxies.find(*object) : -1; };
     for (Pair& pair : m_pairs)
     {
         pair.m_first = obstacleOf(pair.m_manifold->getBody0());
@@ -114,8 +92,8 @@ bool RigidContactFinder::spread(double step, RigidProxies& rigidProxies)
     for (const Pair& pair : m_pairs)
     {
         const btCollisionObject &a = *pair.m_manifold->getBody0(), &b = *pair.m_manifold->getBody1();
-        if (pair.m_first >= 0 && pair.m_second < 0 && isMovable(b)) rigidProxies.indexBeside(b, step, pair.m_first);
-        if (pair.m_second >= 0 && pair.m_first < 0 && isMovable(a)) rigidProxies.indexBeside(a, step, pair.m_second);
+        if (pair.m_first >= 0 && pair.m_second < 0 && movableBody(b)) rigidProxies.indexBeside(b, step, pair.m_first);
+        if (pair.m_second >= 0 && pair.m_first < 0 && movableBody(a)) rigidProxies.indexBeside(a, step, pair.m_second);
     }
     return rigidProxies.rigidProxies().size() > before;
 }
@@ -136,11 +114,11 @@ void RigidContactFinder::add(const Pair& pair, const btManifoldPoint& point, dou
         if (indices[side] < 0)
         {
             velocities[side] = velocityOf(*objects[side], at);
-            givesWay = givesWay || isMovable(*objects[side]);
+            givesWay = givesWay || movableBody(*objects[side]);
             continue;
         }
         const LinkMotion now = rigidProxies.motionNow(indices[side]);
-        const Vec3 center = vec3(rigidProxies.movableBody(indices[side])->getCenterOfMassPosition());
+        const Vec3 center = vec3(movableBody(*objects[side])->getCenterOfMassPosition());
         const Vec3 arm = at - (moved ? center - step * now.m_linear : center);
         velocities[side] = now.m_linear + cross(now.m_angular, arm);
         rewound = rewound || rigidProxies.isRewound(indices[side]);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -32,16 +31,14 @@ private:
         int m_first, m_second;  // movable rigid proxies; -1: none
     };
 
-    void listMovable(const RigidProxies& rigidProxies);
     void listPairs(btDispatcher& dispatcher);
-    void lookUp();
+    void lookUp(const RigidProxies& rigidProxies);
     bool spread(double step, RigidProxies& rigidProxies);
     void keepTouching();
     void add(const Pair& pair, const btManifoldPoint& point, double step, const RigidProxies& rigidProxies,
              std::vector<RigidContact>& touches) const;
 
     std::vector<Pair> m_pairs;
-    std::vector<std::pair<const btCollisionObject*, int>> m_byAddress;  // all rigid proxies of movable rigid bodies
 };
 
 }  // namespace bullet_fem

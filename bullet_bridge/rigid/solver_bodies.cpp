@@ -13,14 +13,14 @@ void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>
                          btAlignedObjectArray<btScalar>* linkDeltas)
 {
     m_pool = &pool;
-    m_multiBodies = linkDeltas && rigid.holdsLinks() ? &rigid : nullptr;
-    if (m_multiBodies) rigid.beginLinks(*linkDeltas);
+    m_multiBodies = linkDeltas && !rigid.links().isEmpty() ? &rigid.links() : nullptr;
+    if (m_multiBodies) m_multiBodies->beginSolve(*linkDeltas);
     m_links.assign(rigid.rigidProxies().size(), Link());
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
-        const btRigidBody* body = rigid.movableBody(static_cast<int>(k));
+        const btRigidBody* body = movableBody(rigid.object(static_cast<int>(k)));
         if (!body || body->getCompanionId() < 0 || body->getCompanionId() >= pool.size()) continue;
-        const RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        const RigidHistory::Remainder& remainder = rigid.history().remainderOf(rigid.object(static_cast<int>(k)));
         m_links[k].m_solverBody = body->getCompanionId();
         m_links[k].m_linearRemainder = remainder.m_linear;
         m_links[k].m_angularRemainder = remainder.m_angular;
@@ -41,7 +41,7 @@ void SolverBodies::read(std::vector<RigidProxy>& rigidProxies)
         rigidProxies[k].m_linearVelocity = link.m_linear;
         rigidProxies[k].m_angularVelocity = link.m_angular;
     }
-    if (m_multiBodies) m_multiBodies->readLinks(rigidProxies);
+    if (m_multiBodies) m_multiBodies->readSolved(rigidProxies);
 }
 
 void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
@@ -56,7 +56,7 @@ void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
         body.m_deltaAngularVelocity = addedExactly(
             body.m_deltaAngularVelocity, rigidProxies[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
     }
-    if (m_multiBodies) m_multiBodies->writeLinks(rigidProxies);
+    if (m_multiBodies) m_multiBodies->writeSolved(rigidProxies);
 }
 
 void SolverBodies::end(RigidProxies& rigid)
@@ -72,7 +72,7 @@ void SolverBodies::end(RigidProxies& rigid)
             body.m_deltaAngularVelocity.setZero();
             m_links[k].m_linearRemainder = m_links[k].m_angularRemainder = {};
         }
-        RigidProxies::Remainder& remainder = rigid.remainder(static_cast<int>(k));
+        RigidHistory::Remainder& remainder = rigid.history().remainderOf(rigid.object(static_cast<int>(k)));
         remainder.m_linear = m_links[k].m_linearRemainder;
         remainder.m_angular = m_links[k].m_angularRemainder;
         remainder.m_used = true;

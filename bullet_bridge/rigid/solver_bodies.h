@@ -18,7 +18,7 @@ class SolverBodies
 {
 public:
     /// Call after the solver has set up its bodies: rigid proxy k is then solver body
-    /// rigid.movableBody(k)->getCompanionId() of `pool`. Starts with the rounding errors of the last step.
+    /// movableBody(rigid.object(k))->getCompanionId() of `pool`. Starts with the rounding errors of the last step.
     /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
     void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
                btAlignedObjectArray<btScalar>* linkDeltas);
@@ -41,7 +41,7 @@ private:
     };
 
     btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
-    RigidProxies* m_multiBodies = nullptr;  // null: there are none
+    ArticulatedBodies* m_multiBodies = nullptr;  // null: there are none
     std::vector<Link> m_links;
 };
 

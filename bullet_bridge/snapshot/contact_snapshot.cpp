@@ -228,7 +228,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
     }
     for (const Weld& weld : fem.m_joints.m_welds) s.m_welds.push_back({weld, world.idOf(weld.m_other)});
     s.m_lastAttachment = fem.m_joints.m_lastId;
-    s.m_place = fem.m_surface.notedPlace();
+    s.m_place = fem.m_notedPlace.positions();
     return s;
 }
 
@@ -245,7 +245,7 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
     for (const WeldSnapshot& w : s.m_welds) checkWeld(w.m_weld, fem);
     if (s.m_lastAttachment < 0) reject("the last attachment's handle is ", s.m_lastAttachment, ", below 0");
-    const std::size_t vertices = fem.m_surface.nodes().size();
+    const std::size_t vertices = fem.m_surface.topology().vertices().size();
     if (!s.m_place.empty() && s.m_place.size() != vertices)
         reject("places of ", s.m_place.size(), " vertices are noted, not of 0 or of ", vertices);
     for (const Vec3& place : s.m_place) checkSane("a noted place", place);
@@ -276,7 +276,7 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
     fem.m_overlaps.m_rigid.clear();
     fem.m_overlaps.m_soft.clear();
     restoreJoints(s, world, fem.m_joints);
-    fem.m_surface.restorePlace(s.m_place);
+    fem.m_notedPlace.restore(s.m_place);
 }
 
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
@@ -301,9 +301,9 @@ void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)
     kept.m_origins.resize(left);
 }
 
-void check(const RigidProxies::Memory& memory)
+void check(const RigidHistory::Memory& memory)
 {
-    for (const RigidProxies::Remainder& r : memory.m_remainders)
+    for (const RigidHistory::Remainder& r : memory.m_remainders)
         checkSane("a rigid body's remainder", r.m_linear, r.m_angular, r.m_linearGiven, r.m_angularGiven,
                   r.m_linearExpected, r.m_angularExpected);
 }

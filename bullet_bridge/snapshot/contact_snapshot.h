@@ -52,7 +52,7 @@ struct ContactSnapshot
     std::vector<AttachmentSnapshot> m_attachments;
     std::vector<WeldSnapshot> m_welds;
     int m_lastAttachment = 0;
-    std::vector<Vec3> m_place;  ///< see SoftSurface::notedPlace
+    std::vector<Vec3> m_place;  ///< see NotedPlace
 };
 
 /// Copies the contacts, joints and impacts of a body, with the ids of `world` in place of pointers.
@@ -70,7 +70,7 @@ void restore(const ContactSnapshot& snapshot, const WorldIds& world, FemSoftBody
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world);
 
 /// Throws std::invalid_argument unless all numbers are in (-1e12, 1e12).
-void check(const RigidProxies::Memory& memory);
+void check(const RigidHistory::Memory& memory);
 
 /// Throws std::invalid_argument unless `count` is a possible number of nodes of a SurfacePoint.
 void checkNodeCount(int count);
@@ -158,14 +158,14 @@ void transfer(Bytes& bytes, SoftPairMemory::Kept& k)
 }
 
 template <class Bytes>
-void transfer(Bytes& bytes, RigidProxies::Remainder& r)
+void transfer(Bytes& bytes, RigidHistory::Remainder& r)
 {
     bytes(r.m_objectId, r.m_linear, r.m_angular, r.m_used, r.m_linearGiven, r.m_angularGiven, r.m_linearExpected,
           r.m_angularExpected);
 }
 
 template <class Bytes>
-void transfer(Bytes& bytes, RigidProxies::Memory& m)
+void transfer(Bytes& bytes, RigidHistory::Memory& m)
 {
     bytes(m.m_remainders, m.m_rewound);
 }

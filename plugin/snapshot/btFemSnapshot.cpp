@@ -21,7 +21,7 @@ struct WorldSnapshot
 {
     std::vector<btFemRecordSnapshot> m_bodies;  // in the order of the registry, which is that of solving
     SoftPairMemory::Kept m_softPairs;
-    RigidProxies::Memory m_rigid;
+    RigidHistory::Memory m_rigid;
     double m_time = 0;  // duration of all steps so far [s]
 };
 
@@ -140,7 +140,7 @@ void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& b
     WorldSnapshot snapshot;
     for (const btFemBodyRecord* record : records) snapshot.m_bodies.push_back(snapshotOf(*record, world));
     snapshot.m_softPairs = scope.m_group.softPairs().kept();
-    snapshot.m_rigid = scope.m_group.rigid().memory();
+    snapshot.m_rigid = scope.m_group.rigid().history().memory();
     snapshot.m_time = scope.m_group.welds().time();
     beginEnvelope(buffer, btFemContents::state);
     ByteWriter bytes(buffer);
@@ -170,7 +170,7 @@ void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data,
     }
     scope.m_registry.putFirst(bodies);
     scope.m_group.softPairs().restore(snapshot.m_softPairs);
-    scope.m_group.rigid().restore(snapshot.m_rigid);
+    scope.m_group.rigid().history().restore(snapshot.m_rigid);
     scope.m_group.welds().setTime(snapshot.m_time);
     scope.m_group.welds().clearBreaks();
     scope.m_splitter.clearSplits();

@@ -63,11 +63,9 @@ btSoftBody::Face* faceAt(const btFemContact& contact, const btFemBodyRecord& rec
 {
     if (record.fem().m_skin) return nullptr;  // faces of the mesh do not contain a skin's points
     btSoftBody& soft = *record.m_softBody;
-    const SurfaceFeatures& features = record.fem().m_surface.features();
-    const int node = nearestNode(contact);
-    for (int k = features.m_firstAround[node]; k < features.m_firstAround[node + 1]; ++k)
+    for (int t : record.fem().m_surface.topology().trianglesAt(nearestNode(contact)))
     {
-        const int index = record.m_model.m_faceIndex.m_faceOf[features.m_around[k]];
+        const int index = record.m_model.m_faceIndex.m_faceOf[t];
         if (index < 0) continue;
         const Triangle nodes = nodesOf(soft.m_faces[index], soft);
         weights.setZero();

@@ -59,7 +59,9 @@ void noteContact(btFemBodyReports& reports, const btFemContact& contact, const C
 
 void btFemContactGroup::beginStep(double step)
 {
-    m_rigid.beginStep(step);
+    m_rigid.history().beginStep(step);
+    m_rigid.links().beginStep();
+    m_rigidSearch.beginStep();
     m_softPairs.beginStep();
     m_cloth.beginStep();
     m_joints.forgetWorld();
@@ -68,8 +70,7 @@ void btFemContactGroup::beginStep(double step)
 // Clears the problem, but keeps the capacity of the contact array, which is its largest part.
 void btFemContactGroup::clearProblem()
 {
-    std::vector<ContactPoint> contacts;
-    contacts.swap(m_problem.m_contacts);
+    std::vector<ContactPoint> contacts = std::move(m_problem.m_contacts);
     m_problem.clear();
     contacts.swap(m_problem.m_contacts);
 }
@@ -97,7 +98,7 @@ void btFemContactGroup::collect(const Scope& scope)
     for (FemSoftBody* fem : m_bodies) fem->holdForSearches(false);
     collectContacts();
     m_torsionalPatches.append(m_bodies, m_problem);
-    m_rigid.connectLinks(m_problem.m_responses);
+    m_rigid.links().connect(m_rigid.rigidProxies(), m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
         m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
@@ -201,7 +202,7 @@ void btFemContactGroup::collectJoints(const Scope& scope)
         if (record->m_membership.m_present && record->isFem() &&
             std::find(m_records.begin(), m_records.end(), record.get()) == m_records.end())
             m_outside.push_back(&record->fem());
-    m_joints.append({m_bodies, m_outside, m_rigid, m_step, scope.m_phase}, m_problem, m_jointFlags);
+    m_joints.append({m_bodies, m_outside, m_rigid, m_step}, m_problem, m_jointFlags);
     const auto joins = [this](const FemSoftBody* other)
     { return other->m_softBody->isActive() && reachesInto(*other, m_bodies); };
     m_reachesOut = std::any_of(m_outside.begin(), m_outside.end(), joins);
@@ -215,12 +216,11 @@ void btFemContactGroup::collectJoints(const Scope& scope)
 
 bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const
 {
-    if (m_reachesOut || (m_rigid.holdsLinks() && !linksToo)) return false;
+    if (m_reachesOut || (!m_rigid.links().isEmpty() && !linksToo)) return false;
     for (int k = 0; k < static_cast<int>(m_rigid.rigidProxies().size()); ++k)
-    {
-        const bool moves = m_rigid.movableBody(k) || m_rigid.isMovableLink(k);
-        if (moves && std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count) return false;
-    }
+        if ((movableBody(m_rigid.object(k)) || m_rigid.isMovableLink(k)) &&
+            std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count)
+            return false;
     return true;
 }
 

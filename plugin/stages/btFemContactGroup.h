@@ -47,7 +47,7 @@ public:
     void noteBeforeSolve(const btCollisionObject& object) { m_rigid.noteBeforeSolve(object); }
 
     /// See ArticulatedBodies::assumeForcesGiven.
-    void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_rigid.assumeForcesGiven(gravity); }
+    void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_rigid.links().assumeForcesGiven(gravity); }
 
     /// Finds contacts and joints of the bodies after their free motion.
     void collect(const Scope& scope);

@@ -186,16 +186,16 @@ TEST_F(ArticulatedBodiesTest, JointFeedbackIsLeftToTheUser)
 
 TEST_F(ArticulatedBodiesTest, OnlyDynamicLinksOfWakeableMultibodiesCanMove)
 {
-    EXPECT_TRUE(ArticulatedBodies::canMove(*m_colliders[0]) && ArticulatedBodies::canMove(*m_colliders[2]));
+    EXPECT_TRUE(canMove(*m_colliders[0]) && canMove(*m_colliders[2]));
     m_body.setFixedBase(true);
-    EXPECT_FALSE(ArticulatedBodies::canMove(*m_colliders[0]));
-    EXPECT_TRUE(ArticulatedBodies::canMove(*m_colliders[2]));
+    EXPECT_FALSE(canMove(*m_colliders[0]));
+    EXPECT_TRUE(canMove(*m_colliders[2]));
     m_colliders[2]->setDynamicType(btCollisionObject::CF_KINEMATIC_OBJECT);
-    EXPECT_FALSE(ArticulatedBodies::canMove(*m_colliders[2]));
+    EXPECT_FALSE(canMove(*m_colliders[2]));
     m_body.goToSleep();
-    EXPECT_TRUE(ArticulatedBodies::canMove(*m_colliders[3]));
+    EXPECT_TRUE(canMove(*m_colliders[3]));
     m_body.setCanWakeup(false);
-    EXPECT_FALSE(ArticulatedBodies::canMove(*m_colliders[3]));
+    EXPECT_FALSE(canMove(*m_colliders[3]));
 }
 
 }  // namespace

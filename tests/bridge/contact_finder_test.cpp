@@ -207,7 +207,7 @@ TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
     m_ball.getWorldTransform().setOrigin(btVector3(btScalar(0.43), btScalar(0.37), btScalar(-0.35)));
     const std::size_t count = find(m_ball).size();
     const int nodes = m_fem.m_body.m_model->nodeCount();
-    const int edges = static_cast<int>(m_fem.m_surface.features().m_edges.size());
+    const int edges = m_fem.m_surface.topology().edgeCount();
     ASSERT_GT(
         std::count_if(m_fem.m_memory.m_origins.begin(), m_fem.m_memory.m_origins.end(),
                       [=](const ContactOrigin& o) { return o.m_feature >= nodes && o.m_feature < nodes + 2 * edges; }),
@@ -285,6 +285,32 @@ TEST_F(ContactFinderTest, ThreadedSearchEqualsSearchBodyByBody)
             EXPECT_EQ(norm(together[k].m_point - alone[k].m_point), 0);
         }
     }
+}
+
+/// A shape at the address of one that reported triangles, and reports none.
+struct EmptiedSheet : OwnSheet
+{
+    using OwnSheet::OwnSheet;
+    void processAllTriangles(btTriangleCallback* visitor, const btVector3& low, const btVector3& high) const override
+    {
+        if (!m_isEmpty) OwnSheet::processAllTriangles(visitor, low, high);
+    }
+    bool m_isEmpty = false;
+};
+
+TEST_F(ContactFinderTest, OwnShapesAreAskedForTrianglesAgainAfterAStepWithoutThem)
+{
+    btTriangleMesh mesh;
+    mesh.addTriangle(btVector3(-1, -1, 0), btVector3(1, -1, 0), btVector3(0, 1, 0));
+    EmptiedSheet sheet(mesh);
+    m_ground.setCollisionShape(&sheet);
+    find(m_ground);
+    EXPECT_FALSE(m_report.m_unknownShape);
+    sheet.m_isEmpty = true;
+    m_search.beginStep();
+    m_search.beginStep();
+    find(m_ground);
+    EXPECT_TRUE(m_report.m_unknownShape);
 }
 
 TEST_F(ContactFinderTest, ObjectsRecordedByManyThreadsAreFoundOnce)

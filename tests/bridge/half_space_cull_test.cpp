@@ -21,17 +21,18 @@ bool isFarOutside(const SoftSurface& surface, const Vec3& p)
     const int t = surface.tree().nearestTriangle(
         p, 1e9, [](int) { return false; }, nearest);
     const Vec3 r = p - nearest.m_point;
-    return norm(r) > kFar && !(dot(r, surface.normalAt(t, nearest)) < 0);
+    return norm(r) > kFar && !(dot(r, normalAt(surface, t, nearest)) < 0);
 }
 
 // Counts points that the cull proves to be far outside; the oracle must agree for each.
 template <class Move>
 int proved(const TetMesh& mesh, Move move)
 {
-    SoftSurface surface(mesh);
+    SoftSurface surface(boundaryOf(mesh));
     std::vector<Vec3> x = mesh.restPositions();
     for (Vec3& p : x) p = move(p);
-    surface.update(x, std::vector<Vec3>(x.size()), 1);
+    surface.place(x, std::vector<Vec3>(x.size()), 1);
+    surface.prepareAll();
     Random random;
     int count = 0;
     for (int k = 0; k < 3000; ++k)
@@ -71,8 +72,8 @@ TEST(HalfSpaceCull, AgreesWithTheNearestTriangleOfAnInvertedBody)
 
 TEST(HalfSpaceCull, CullsNothingForOpenSurfaces)
 {
-    SoftSurface sheet(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0, 1, 2}, 1, 1, {}});
-    EXPECT_FALSE(sheet.isClosed());
+    SoftSurface sheet(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 1, 1, {}});
+    EXPECT_FALSE(sheet.topology().isClosed());
     EXPECT_FALSE(HalfSpaceCull(sheet, {0, 0, 1}).isFarOutside({0.3, 0.3, 5}, kFar));
     EXPECT_FALSE(HalfSpaceCull().isFarOutside({0, 0, 5}, kFar));
 }

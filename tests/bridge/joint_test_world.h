@@ -66,7 +66,7 @@ public:
         m_problem.clear();
         m_rigidProxies.clear(phase);
         m_joints.forgetWorld();
-        m_joints.append({m_bodies, m_outside, m_rigidProxies, kStep, phase}, m_problem, m_flags);
+        m_joints.append({m_bodies, m_outside, m_rigidProxies, kStep}, m_problem, m_flags);
         return m_problem;
     }
 

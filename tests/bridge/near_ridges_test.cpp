@@ -102,7 +102,8 @@ TEST(RidgeLanes, UnusedOnesMeetNothing)
 
 struct TestSurface
 {
-    TestSurface(Random& random, const Vec3& place, const Vec3& way) : m_mesh(makeSphere(1, 6)), m_surface(m_mesh)
+    TestSurface(Random& random, const Vec3& place, const Vec3& way)
+        : m_mesh(makeSphere(1, 6)), m_surface(boundaryOf(m_mesh))
     {
         std::vector<Vec3> x = m_mesh.restPositions(), v(x.size());
         for (std::size_t i = 0; i < x.size(); ++i)
@@ -110,13 +111,14 @@ struct TestSurface
             x[i] += place + 0.02 * random.point();
             v[i] = way + 0.02 * random.point();
         }
-        m_surface.update(x, v, 1);
+        m_surface.place(x, v, 1);
+        m_surface.prepareAll();
     }
 
     // Points along a ridge at several times within two steps.
     std::vector<Vec3> trace(int edge, double time) const
     {
-        const auto [a, b] = m_surface.features().m_edges[edge];
+        const auto [a, b] = m_surface.topology().edges()[edge];
         const std::vector<Vec3>&x = m_surface.position(), &change = m_surface.change();
         std::vector<Vec3> points;
         for (double s : {0.0, 0.25, 0.5, 0.75, 1.0})
@@ -130,10 +132,10 @@ struct TestSurface
 
 std::set<int> listed(const SoftSurface& surface, const SoftSurface& other)
 {
-    const Vec3 toSurface = unit(surface.middle() - other.middle());
+    const Vec3 toSurface = unit(middleOf(surface) - middleOf(other));
     const BeyondPlane plane(other, toSurface, SurfaceRidges::kSteps);
     NearRidges ridges;
-    ridges.list(surface, {other.tree().coarseBounds(), plane, kNear, kBand}, surface.middle());
+    ridges.list(surface, {other.tree().coarseBounds(), plane, kNear, kBand}, middleOf(surface));
     std::set<int> edges;
     for (const NearRidges::Run& run : ridges.runs())
         for (int k = run.m_first; k < run.m_end; ++k) EXPECT_TRUE(edges.insert(ridges[k].m_ridge.m_edge).second);
@@ -155,7 +157,7 @@ TEST(NearRidges, IncludesAllPossibleContactsAndFewMore)
     const Vec3 toB = unit({1, 0.8, 1.2});
     const TestSurface a(random, {}, {}), b(random, 2.15 * toB, -0.05 * toB);
     const std::set<int> ofA = listed(a.m_surface, b.m_surface), ofB = listed(b.m_surface, a.m_surface);
-    const int edges = static_cast<int>(a.m_surface.features().m_edges.size());
+    const int edges = a.m_surface.topology().edgeCount();
     int touching = 0;
     for (int m = 0; m < edges; ++m)
         for (int n = 0; n < edges; ++n)

@@ -347,10 +347,10 @@ TEST_F(NodeAttachmentTest, ABodyOutsideTheSolveStandsStill)
 TEST_F(NodeAttachmentTest, KnowsBothItsSides)
 {
     attach(3, {0, 1, 2, 2}, {0.25, 0.75, 0, 0});
-    EXPECT_TRUE(isAttached(m_cube, {9, 3, 8}, m_other));
-    EXPECT_FALSE(isAttached(m_cube, {9, 4, 8}, m_other));
-    EXPECT_TRUE(isAttached(m_other, {9, 1, 8}, m_cube));
-    EXPECT_FALSE(isAttached(m_other, {9, 2, 8}, m_cube));  // weights of zero attach nothing
+    EXPECT_TRUE(isPointAttached(m_cube, pointOf(0, {9, 3, 8}, {1, 0, 0}), m_other));
+    EXPECT_FALSE(isPointAttached(m_cube, pointOf(0, {9, 4, 8}, {1, 0, 0}), m_other));
+    EXPECT_TRUE(isPointAttached(m_other, pointOf(0, {9, 1, 8}, {1, 0, 0}), m_cube));
+    EXPECT_FALSE(isPointAttached(m_other, pointOf(0, {9, 2, 8}, {1, 0, 0}), m_cube));  // has no weight
 }
 
 TEST_F(NodeAttachmentTest, AnAwakeBodyOutsideTheSolveIsKnownToReachIn)

@@ -97,7 +97,8 @@ public:
 
     FemSoftBody& ready()
     {
-        m_fem.m_surface.update(m_x, m_v, 1.0 / 60);
+        m_fem.m_surface.place(m_x, m_v, 1.0 / 60);
+        m_fem.m_surface.prepareAll();
         return m_fem;
     }
 

@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Turns, PlacedPairs, testing::Values(1, 2, 3));
 bool isInside(const SoftSurface& surface, const Vec3& p)
 {
     double sum = 0;
-    for (const Triangle& t : surface.triangles())
+    for (const Triangle& t : surface.topology().triangles())
     {
         const Vec3 a = surface.position()[t[0]] - p, b = surface.position()[t[1]] - p, c = surface.position()[t[2]] - p;
         const double A = norm(a), B = norm(b), C = norm(c);
@@ -197,7 +197,7 @@ bool isInside(const SoftSurface& surface, const Vec3& p)
 double signedDistance(const SoftSurface& surface, const Vec3& p)
 {
     double least = 1e9;
-    for (std::size_t t = 0; t < surface.triangles().size(); ++t)
+    for (std::size_t t = 0; t < surface.topology().triangles().size(); ++t)
         least = std::min(least, norm(p - nearestOnTriangle(surface.tree().corners(static_cast<int>(t)), p).m_point));
     return isInside(surface, p) ? -least : least;
 }
@@ -216,7 +216,7 @@ TEST(SoftPairFinder, MatchesBruteForceOverAllPairs)
         const PairContacts found(a, b);
         const double band = 0.05 * std::min(a.m_fem.m_surface.meanEdge(), b.m_fem.m_surface.meanEdge());
         int expected = 0;
-        for (int i : b.m_fem.m_surface.nodes())
+        for (int i : b.m_fem.m_surface.topology().vertices())
         {
             const double distance = signedDistance(a.m_fem.m_surface, b.m_x[i]);
             if (distance > 0.99 * band) continue;

@@ -19,9 +19,7 @@ constexpr double kGradients = 2e-5;  // error of the gradients of round hulls
 class SurfaceCullingTest : public ::testing::TestWithParam<NamedShape>
 {
 protected:
-    SurfaceCullingTest() : m_surface(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {0, 1, 2}, 1, 1, {}})
-    {
-    }
+    SurfaceCullingTest() : m_surface(RestSurface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, 1, 1, {}}) {}
 
     void next(int k)
     {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "bullet_bridge/geometry/surface/soft_surface.h"
+#include "bullet_bridge/geometry/surface/surface_curvature.h"
 #include "bullet_fem/fem/mesh/generators.h"
 
 namespace bullet_fem
@@ -18,13 +18,13 @@ namespace
 template <class Counts>
 std::pair<double, double> roundnessOf(const TetMesh& mesh, double radius, const Counts& counts)
 {
-    const SoftSurface surface(mesh);
+    const SurfaceCurvature curvature({mesh.surface(), mesh.nodeCount()}, mesh.restPositions());
     std::pair<double, double> range(1e9, 0);
     for (const int i : mesh.surfaceNodes())
     {
         if (!counts(mesh.restPositions()[i])) continue;
-        range.first = std::min(range.first, radius * surface.curvature(i));
-        range.second = std::max(range.second, radius * surface.curvature(i));
+        range.first = std::min(range.first, radius * curvature.m_largest[i]);
+        range.second = std::max(range.second, radius * curvature.m_largest[i]);
     }
     return range;
 }

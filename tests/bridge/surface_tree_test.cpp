@@ -212,13 +212,14 @@ std::vector<SurfaceRidges::Ridge> ridgesOf(const SoftSurface& surface)
 TEST(SurfaceRidges, AreListedOnceEach)
 {
     const TetMesh mesh = makeBox({1, 1, 1}, {1, 1, 1});
-    SoftSurface surface(mesh);
+    SoftSurface surface(boundaryOf(mesh));
     std::vector<Vec3> v(mesh.restPositions().size(), Vec3{6, 0, 0});
-    surface.update(mesh.restPositions(), v, 1.0 / 60);
+    surface.place(mesh.restPositions(), v, 1.0 / 60);
+    surface.prepareAll();
     std::set<int> edges;
     for (const SurfaceRidges::Ridge& ridge : ridgesOf(surface))
     {
-        const auto [a, b] = surface.features().m_edges[ridge.m_edge];
+        const auto [a, b] = surface.topology().edges()[ridge.m_edge];
         EXPECT_NEAR(norm(mesh.restPositions()[b] - mesh.restPositions()[a]), 1, 1e-12);
         EXPECT_TRUE(edges.insert(ridge.m_edge).second);
         // It moves 0.2 m in two steps.
@@ -234,7 +235,7 @@ TEST(SurfaceRidges, AreListedOnceEach)
 TEST(SoftSurface, PreparedNearABoxSaysTheSameAsPreparedEverywhere)
 {
     const TetMesh mesh = makeSphere(1, 6);
-    SoftSurface whole(mesh), part(mesh);
+    SoftSurface whole(boundaryOf(mesh)), part = whole;
     Random random;
     std::vector<Vec3> x = mesh.restPositions(), v(x.size());
     const std::vector<SurfaceTree::Nearby> boxes = {{CoarseBox::of({1.1, 0.3, 0}, {-0.1, 0, 0}), 0.2}};
@@ -246,13 +247,13 @@ TEST(SoftSurface, PreparedNearABoxSaysTheSameAsPreparedEverywhere)
             x[i] += 0.02 * random.point();
             v[i] = 0.5 * random.point();
         }
-        whole.update(x, v, 0.01);
+        whole.place(x, v, 0.01);
+        whole.prepareAll();
         part.place(x, v, 0.01);
         part.prepareNear(boxes);
         for (int t = 0; t < static_cast<int>(mesh.surface().size()); ++t)
             EXPECT_EQ(norm(whole.faceNormal(t) - part.faceNormal(t)), 0);
-        for (int k = 0; k < static_cast<int>(whole.features().m_edges.size()); ++k)
-            EXPECT_EQ(whole.bend(k), part.bend(k));
+        for (int k = 0; k < whole.topology().edgeCount(); ++k) EXPECT_EQ(whole.bend(k), part.bend(k));
         const auto near = [&](const SoftSurface& surface)
         {
             std::vector<int> edges;

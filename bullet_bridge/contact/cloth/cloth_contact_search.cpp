@@ -26,7 +26,7 @@ void ClothContactSearch::find(std::vector<ClothContact>& touches)
 {
     for (int i = 0; i < m_cloth.nodeCount(); ++i) findNode(i, touches);
     if (!m_cloth.tree()) return;
-    for (int vertex : m_surface.nodes()) findVertex(vertex, touches);
+    for (int vertex : m_surface.topology().vertices()) findVertex(vertex, touches);
 }
 
 // Conservative advancement of a node or vertex along its path relative to the nearest triangle, until it is within the
@@ -53,7 +53,7 @@ bool ClothContactSearch::lookAtSurface(const Vec3& x, double most, Place& place)
 {
     place.m_triangle = m_surface.tree().nearestTriangle(x, most, kNone, place.m_nearest);
     if (place.m_triangle < 0) return false;
-    const Vec3 r = place.m_nearest.m_point - x, outward = m_surface.normalAt(place.m_triangle, place.m_nearest);
+    const Vec3 r = place.m_nearest.m_point - x, outward = normalAt(m_surface, place.m_triangle, place.m_nearest);
     const double distance = norm(r);
     const bool inside = dot(r, outward) > 0;
     place.m_distance = inside ? -distance : distance;
@@ -74,8 +74,10 @@ void ClothContactSearch::findNode(int node, std::vector<ClothContact>& touches) 
     Place place;
     if (!lookAtSurface(mover.m_x, most, place)) return;
     const auto look = [&](const Vec3& x, Place& at) { return lookAtSurface(x, kInfinity, at); };
-    if (!(place.m_distance < within) && !arrive(mover, m_surface.change(), m_surface.triangles(), look, place)) return;
-    ClothContact touch = {m_surface.triangles()[place.m_triangle],
+    if (!(place.m_distance < within) &&
+        !arrive(mover, m_surface.change(), m_surface.topology().triangles(), look, place))
+        return;
+    ClothContact touch = {m_surface.topology().triangles()[place.m_triangle],
                           {node, node, node},
                           place.m_nearest.m_weights,
                           {1, 0, 0},
@@ -103,7 +105,7 @@ bool ClothContactSearch::lookAtCloth(const Mover& mover, const Vec3& x, double m
     if (place.m_nearest.m_feature != TriangleFeature::face || place.m_distance > kDeepest * m_surface.meanEdge())
         return false;
     const Corners t = m_cloth.tree()->corners(place.m_triangle);
-    const Vec3 across = unit(cross(t[1] - t[0], t[2] - t[0]));
+    const Vec3 across = normalOf(t);
     const double facing = dot(across, mover.m_normal);
     if (!(std::fabs(facing) > kFlatCosine)) return false;
     place.m_normal = facing < 0 ? across : -across;
@@ -118,7 +120,7 @@ void ClothContactSearch::findVertex(int vertex, std::vector<ClothContact>& touch
     const SweptBox& bounds = m_cloth.tree()->bounds();
     const double within = m_thickness + m_band;
     if (!bounds.meets(point, within)) return;
-    mover.m_normal = m_surface.nodeNormal(vertex);
+    mover.m_normal = nodeNormal(m_surface, vertex);
     Place place;
     if (!lookAtCloth(mover, mover.m_x, within + kDeepest * m_surface.meanEdge() + largestTravel(point, bounds), place))
         return;

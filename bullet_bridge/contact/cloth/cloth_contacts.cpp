@@ -3,12 +3,12 @@
 #include "bullet_bridge/contact/cloth/cloth_contacts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/fem_soft_body.h"
 #include "bullet_bridge/contact/friction.h"
+#include "bullet_bridge/contact/nearest_contacts.h"
 #include "bullet_bridge/joints/rigid_pivot.h"
 #include "bullet_bridge/joints/soft_anchors.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -22,25 +22,6 @@ namespace
 constexpr double kErp = 0.5;         // share of an attachment's error that a step corrects (Baumgarte) [-]
 constexpr double kClothBand = 0.05;  // width of the contact band over the body's mean edge [-]
 constexpr double kClothSlop = 5e-4;  // permitted penetration over the body's size [-]
-
-// Keeps the `most` contacts of smallest gap, in the order in which they were found.
-void keepNearestTouches(int most, std::vector<ClothContact>& touches, std::vector<int>& order)
-{
-    order.resize(touches.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto nearer = [&](int a, int b)
-    { return touches[a].m_gap != touches[b].m_gap ? touches[a].m_gap < touches[b].m_gap : a < b; };
-    std::nth_element(order.begin(), order.begin() + most, order.end(), nearer);
-    order.resize(most);
-    std::sort(order.begin(), order.end());
-    for (int k = 0; k < most; ++k) touches[k] = touches[order[k]];
-    touches.resize(most);
-}
-
-Mat3 scaledUnit(double s)
-{
-    return Mat3::fromColumns({s, 0, 0}, {0, s, 0}, {0, 0, s});
-}
 
 }  // namespace
 
@@ -155,7 +136,8 @@ void ClothContacts::find(const std::vector<FemSoftBody*>& bodies, double step, i
         FemSoftBody& fem = *bodies[m_searches[k]->m_body];
         if (k > 0 && m_searches[k - 1]->m_body == m_searches[k]->m_body) continue;
         fem.updateSkin();
-        fem.m_surface.update(fem.surfacePosition(), fem.surfaceVelocity(), step);
+        fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
+        fem.m_surface.prepareAll();
     }
     threads.run(static_cast<int>(m_searchCount),
                 [&](int k) { search(*bodies[m_searches[k]->m_body], maxContacts, *m_searches[k]); });
@@ -167,8 +149,7 @@ void ClothContacts::search(const FemSoftBody& fem, int maxContacts, Search& sear
     const ClothSurface& cloth = *m_surfaces[search.m_surface];
     const double thickness = cloth.thickness() + fem.m_settings.m_contactOffset;
     ClothContactSearch(fem.m_surface, cloth, thickness, kClothBand * fem.m_surface.meanEdge()).find(search.m_touches);
-    search.m_limited = static_cast<int>(search.m_touches.size()) > maxContacts;
-    if (search.m_limited) keepNearestTouches(maxContacts, search.m_touches, search.m_order);
+    search.m_limited = keepNearest(maxContacts, search.m_order, search.m_touches);
 }
 
 bool ClothContacts::isLimited(std::size_t b) const
@@ -251,16 +232,9 @@ void ClothContacts::appendJoints(const Search& search, double step, ContactProbl
         held.m_node = attachment.m_nodes[0];
         held.m_object = attachment.m_cloth;
         Joint joint;
-        joint.m_a.m_body = search.m_body;
-        joint.m_a.m_first = static_cast<int>(problem.m_handleNodes.size());
+        joint.m_a = pointEnd(search.m_body, attachment.m_nodes, attachment.m_weights, problem);
         for (std::size_t a = 0; a < 4; ++a)
-        {
-            if (attachment.m_weights[a] == 0) continue;
             held.m_point += attachment.m_weights[a] * fem.m_body.m_state.m_x[attachment.m_nodes[a]];
-            problem.m_handleNodes.push_back(attachment.m_nodes[a]);
-            problem.m_handleBlocks.push_back(Mat3::diagonal(attachment.m_weights[a]));
-            ++joint.m_a.m_count;
-        }
         const Vec3 target = cloth.position()[node];
         held.m_error = norm(target - held.m_point);
         held.m_row = static_cast<int>(problem.m_joints.size());
@@ -316,7 +290,7 @@ void ClothContacts::connect(ContactProblem& problem)
         {
             RigidResponse response;
             response.m_rigidProxy = static_cast<int>(m_firstProxy) + other;
-            response.m_linear = scaledUnit(m_answer[other]);
+            response.m_linear = Mat3::diagonal(m_answer[other]);
             problem.m_responses.push_back(response);
             m_answer[other] = 0;
         }

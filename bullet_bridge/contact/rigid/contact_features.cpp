@@ -22,22 +22,25 @@ int triangleOfCorner(const FemSoftBody& fem, int feature)
 
 int firstCornerFeature(const FemSoftBody& fem)
 {
-    const SoftSurface& surface = fem.m_surface;
-    return surface.vertexCount() + 2 * static_cast<int>(surface.features().m_edges.size() + surface.triangles().size());
+    const SurfaceTopology& topology = fem.m_surface.topology();
+    return topology.vertexCount() + 2 * (topology.edgeCount() + topology.triangleCount());
 }
 
 Triangle cornersOf(const FemSoftBody& fem, const ContactTarget& target, int feature)
 {
-    const SoftSurface& surface = fem.m_surface;
-    const std::vector<std::array<int, 2>>& edges = surface.features().m_edges;
+    const SurfaceTopology& topology = fem.m_surface.topology();
     const bool areSheets = target.m_kind == TargetKind::sheets;
-    const int vertexCount = surface.vertexCount(), edgeCount = static_cast<int>(edges.size());
+    const int vertexCount = topology.vertexCount(), edgeCount = topology.edgeCount();
     if (feature < vertexCount) return {feature, feature, feature};
-    if (!areSheets && feature >= firstCornerFeature(fem)) return surface.triangles()[triangleOfCorner(fem, feature)];
+    if (!areSheets && feature >= firstCornerFeature(fem)) return topology.triangles()[triangleOfCorner(fem, feature)];
     const int k = areSheets ? feature - vertexCount : (feature - vertexCount) / 2;
-    const int edge = areSheets ? k - static_cast<int>(surface.triangles().size()) : k;
-    if (edge >= 0 && edge < edgeCount) return {edges[edge][0], edges[edge][1], edges[edge][0]};
-    return surface.triangles()[areSheets ? k : k - edgeCount];
+    const int edge = areSheets ? k - topology.triangleCount() : k;
+    if (edge >= 0 && edge < edgeCount)
+    {
+        const auto [a, b] = topology.edges()[edge];
+        return {a, b, a};
+    }
+    return topology.triangles()[areSheets ? k : k - edgeCount];
 }
 
 bool areOverOneFace(const FemSoftBody& fem, int a, int b)
@@ -49,13 +52,12 @@ bool areOverOneFace(const FemSoftBody& fem, int a, int b)
 
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
-    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
     const std::vector<Vec3>& x = fem.surfacePosition();
-    const SurfaceFeatures& features = fem.m_surface.features();
+    const SurfaceTopology& topology = fem.m_surface.topology();
     Vec3 mean;
-    for (int k = features.m_firstAround[nodes[0]]; k < features.m_firstAround[nodes[0] + 1]; ++k)
+    for (int k : topology.trianglesAt(nodes[0]))
     {
-        const Triangle& t = triangles[features.m_around[k]];
+        const Triangle& t = topology.triangles()[k];
         const auto has = [&t](int node) { return t[0] == node || t[1] == node || t[2] == node; };
         if (!has(nodes[1]) || !has(nodes[2])) continue;
         const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);

@@ -49,7 +49,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     m_filter.judge(m_scope, m_targets.targets(), m_near);
     for (const ContactTarget& target : m_targets.targets()) findWithinStep(target);
     thin(around);
-    report.m_limited = keepNearest(around.m_maxContacts, m_found.points(), m_found.origins(), m_order);
+    report.m_limited = keepNearest(around.m_maxContacts, m_order, m_found.points(), m_found.origins());
     m_matcher.transferImpulses(m_scope, m_found);
     fem.m_memory.m_contacts.assign(m_found.points().begin(), m_found.points().end());
     fem.m_memory.m_origins.assign(m_found.origins().begin(), m_found.origins().end());

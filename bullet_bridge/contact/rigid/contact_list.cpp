@@ -86,7 +86,7 @@ ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& t
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_rigidProxy = target.m_rigidProxy;
     contact.m_approach = target.m_moved;
-    if (feature < fem.m_surface.vertexCount())
+    if (feature < fem.m_surface.topology().vertexCount())
         contact.m_patch = patchOf(scope, target, feature, d.m_normal, target.m_step);
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
@@ -112,8 +112,9 @@ Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, int node, co
     const bool canMove = !target.m_object->isStaticOrKinematicObject();
     const SurfacePoint point = fem.pointOn(scope.m_bodyIndex, {node, node, node}, {1, 0, 0});
     ContactPatchSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_search.m_meanMotion.m_spin,
-                             roundness(fem.m_surface.curvature(node), scope.m_size), scope.m_size, std::nullopt};
-    if (fem.m_surface.hasFewFacets(node)) soft.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
+                             roundness(fem.m_surface.curvature().m_largest[node], scope.m_size), scope.m_size,
+                             std::nullopt};
+    if (fem.m_surface.curvature().m_hasFewFacets[node]) soft.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
     const ContactPatchSide rigid = {
         target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity, curvatureOf(*target.m_shape),
         canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite, std::nullopt};

@@ -15,7 +15,7 @@ constexpr double kMinLikeness = -2;  // smallest similarity of a contact to one 
 
 void ContactMatcher::begin(const FemSoftBody& fem)
 {
-    const int vertexCount = fem.m_surface.vertexCount();
+    const int vertexCount = fem.m_surface.topology().vertexCount();
     const ContactMemory& memory = fem.m_memory;
     m_heldNormal.assign(vertexCount, Vec3());
     m_heldBy.assign(vertexCount, 0);

@@ -58,7 +58,7 @@ void FlushFilter::judge(const SearchScope& scope, const std::vector<ContactTarge
 void FlushFilter::addCarriers(const SearchScope& scope, const std::vector<ContactTarget>& targets,
                               const ContactList& near)
 {
-    const int vertexCount = scope.fem().m_surface.vertexCount();
+    const int vertexCount = scope.fem().m_surface.topology().vertexCount();
     m_carried.begin(vertexCount, scope.m_band);
     for (std::size_t t = 0; t < targets.size(); ++t)
         for (std::size_t k = targets[t].m_first; k < targets[t].m_end; ++k)

@@ -62,7 +62,7 @@ void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, co
     if (polyhedron.getNumVertices() > kMaxCorners) return;
     const std::vector<Vec3>& x = fem.surfacePosition();
     const Corners corners = {x[t[0]], x[t[1]], x[t[2]]};
-    const Vec3 normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const Vec3 normal = normalOf(corners);
     const double distance = marginOf(shape) + fem.m_settings.m_contactOffset;
     for (int k = 0; k < polyhedron.getNumVertices(); ++k)
     {
@@ -135,7 +135,7 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
     FemSoftBody& fem = scope.fem();
     const double reach = target.m_reach;
     const double farthest = reach + scope.m_culling.longestEdge();  // gaps up to this are noted for culling
-    for (int i : fem.m_surface.nodes())
+    for (int i : fem.m_surface.topology().vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         fem.m_search.m_nodeGap[i] = kNotNear;
@@ -157,11 +157,11 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
 void NodeSearch::findOnEdges(SearchScope& scope, const ContactTarget& target, ContactList& list)
 {
     FemSoftBody& fem = scope.fem();
-    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    const int firstFeature = fem.m_surface.vertexCount();
+    const int edgeCount = fem.m_surface.topology().edgeCount();
+    const int firstFeature = fem.m_surface.topology().vertexCount();
     for (int k = 0; k < edgeCount; ++k)
     {
-        const auto [a, b] = fem.m_surface.features().m_edges[k];
+        const auto [a, b] = fem.m_surface.topology().edges()[k];
         fem.m_search.m_edgeGap[k] = kNotNear;
         const Triangle edge = {a, b, a};
         if (scope.m_culling.isOutside(edge) || areOverOneFace(fem, a, b) || isFar(scope, target, edge)) continue;
@@ -177,14 +177,13 @@ void NodeSearch::findOnEdges(SearchScope& scope, const ContactTarget& target, Co
 void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target, ContactList& list)
 {
     FemSoftBody& fem = scope.fem();
-    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
-    const int firstFeature =
-        fem.m_surface.vertexCount() + 2 * static_cast<int>(fem.m_surface.features().m_edges.size());
+    const int triangleCount = fem.m_surface.topology().triangleCount();
+    const int firstFeature = fem.m_surface.topology().vertexCount() + 2 * fem.m_surface.topology().edgeCount();
     const bool isSmall = norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) < kSmallShape * scope.m_edge;
     m_underCorners.clear();
     for (int k = 0; k < triangleCount; ++k)
     {
-        const Triangle& t = fem.m_surface.triangles()[k];
+        const Triangle& t = fem.m_surface.topology().triangles()[k];
         if (scope.m_culling.isOutside(t) || (areOverOneFace(fem, t[0], t[1]) && areOverOneFace(fem, t[0], t[2])))
             continue;
         if (isFar(scope, target, t)) continue;
@@ -193,7 +192,7 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target
         if (nearest < kNotNear) list.consider(scope, target, firstFeature + 2 * k, t, d);
         for (int a = 0; a < 3; ++a)
             nearest = std::min({nearest, fem.m_search.m_nodeGap[t[a]],
-                                fem.m_search.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
+                                fem.m_search.m_edgeGap[fem.m_surface.topology().edgesOf(k)[a]]});
         if (isSmall && isUnderCorner(scope, target, t))
             m_underCorners.push_back(k);
         else
@@ -210,7 +209,7 @@ void NodeSearch::findOnCorners(const SearchScope& scope, const ContactTarget& ta
     const int firstFeature = firstCornerFeature(fem);
     for (int triangle : m_underCorners)
     {
-        const Triangle& t = fem.m_surface.triangles()[triangle];
+        const Triangle& t = fem.m_surface.topology().triangles()[triangle];
         forEachCornerOver(scope, target, t,
                           [&](int corner, const SurfaceDistance& d)
                           { list.consider(scope, target, firstFeature + kMaxCorners * triangle + corner, t, d); });

@@ -85,10 +85,10 @@ void setLevers(const SearchScope& scope, const ContactTarget& target, int featur
                ContactPoint& contact)
 {
     const FemSoftBody& fem = scope.fem();
-    const bool isNode = feature < fem.m_surface.vertexCount();
+    const bool isNode = feature < fem.m_surface.topology().vertexCount();
     if (isNode) contact.m_patch = patchOf(scope, target, feature, contact.m_normal, met.m_time);
     if (isNode && contact.m_gap < kRollingGap * scope.m_size &&
-        roundness(fem.m_surface.curvature(feature), scope.m_size) > 0)
+        roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0)
         return;
     contact.m_isMetLater = true;
     contact.m_approach += met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
@@ -102,7 +102,8 @@ double considerPath(const Paths& search, int feature, const Triangle& nodes, dou
     SweptContact contact;
     if (!meets(search, nodes, contact)) return earliest;
     const double time = contact.m_time > 0 ? contact.m_time : contact.m_surface.m_gap / search.m_speed;
-    if (feature < fem.m_surface.vertexCount()) fem.m_search.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
+    if (feature < fem.m_surface.topology().vertexCount())
+        fem.m_search.m_nodeNormal[nodes[0]] = contact.m_surface.m_normal;
     if (time < earliest - search.m_scope.m_advantage / search.m_speed)
         if (ContactPoint* kept = list.keep(search.m_scope, search.m_target, feature, nodes, contact.m_surface))
             setLevers(search.m_scope, search.m_target, feature, contact, *kept);
@@ -122,7 +123,7 @@ void findTouchingNodes(SearchScope& scope, const ContactTarget& target, ContactL
     const FemSoftBody& fem = scope.fem();
     const double reach = scope.m_band + fem.m_settings.m_contactOffset;
     if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return;
-    for (int i : fem.m_surface.nodes())
+    for (int i : fem.m_surface.topology().vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         SurfaceDistance d;
@@ -173,7 +174,7 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
     const Paths search = {scope, target, filter.carried(), swept, fastest + spin, 0};
     scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_settings.m_contactOffset + fall});
     std::size_t next = target.m_first;  // in near
-    for (int i : fem.m_surface.nodes())
+    for (int i : fem.m_surface.topology().vertices())
     {
         const SweptFeature path = pathOf(fem, filter.carried(), {i, i, i}, {}, target.m_step);
         scope.m_culling.noteVertex(i, path.m_position[0], path.m_position[0] + target.m_step * path.m_velocity[0]);
@@ -193,27 +194,27 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
         if (!scope.m_culling.isOutside({i, i, i}))
             fem.m_search.m_nodeGap[i] = considerPath(search, i, {i, i, i}, kNever, list);
     }
-    const int edgeCount = static_cast<int>(fem.m_surface.features().m_edges.size());
-    int firstFeature = fem.m_surface.vertexCount() + 1;  // the features of nearest points have odd numbers
+    const int edgeCount = fem.m_surface.topology().edgeCount();
+    int firstFeature = fem.m_surface.topology().vertexCount() + 1;  // the features of nearest points have odd numbers
     for (int k = 0; k < edgeCount; ++k)
     {
-        const auto [a, b] = fem.m_surface.features().m_edges[k];
+        const auto [a, b] = fem.m_surface.topology().edges()[k];
         fem.m_search.m_edgeGap[k] = std::min(fem.m_search.m_nodeGap[a], fem.m_search.m_nodeGap[b]);
         if (!areOverOneFace(fem, a, b) && !scope.m_culling.isOutside({a, b, a}))
             fem.m_search.m_edgeGap[k] =
                 considerPath(search, firstFeature + 2 * k, {a, b, a}, fem.m_search.m_edgeGap[k], list);
     }
-    const int triangleCount = static_cast<int>(fem.m_surface.triangles().size());
+    const int triangleCount = fem.m_surface.topology().triangleCount();
     firstFeature += 2 * edgeCount;
     for (int k = 0; k < triangleCount; ++k)
     {
-        const Triangle& t = fem.m_surface.triangles()[k];
+        const Triangle& t = fem.m_surface.topology().triangles()[k];
         if (scope.m_culling.isOutside(t) || (areOverOneFace(fem, t[0], t[1]) && areOverOneFace(fem, t[0], t[2])))
             continue;
         double earliest = kNever;
         for (int a = 0; a < 3; ++a)
             earliest = std::min({earliest, fem.m_search.m_nodeGap[t[a]],
-                                 fem.m_search.m_edgeGap[fem.m_surface.features().m_triangleEdges[k][a]]});
+                                 fem.m_search.m_edgeGap[fem.m_surface.topology().edgesOf(k)[a]]});
         considerPath(search, firstFeature + 2 * k, t, earliest, list);
     }
 }

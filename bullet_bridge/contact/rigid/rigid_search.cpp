@@ -3,7 +3,6 @@
 #include "bullet_bridge/contact/rigid/rigid_search.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
@@ -71,6 +70,12 @@ RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders
     m_carried.reserve(kParts);
 }
 
+void RigidSearch::beginStep()
+{
+    std::swap(m_gaveLast, m_giving);
+    m_giving.clear();
+}
+
 void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts,
                        RigidProxies& rigidProxies)
 {
@@ -112,14 +117,7 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
 void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
-    std::sort(m_byAddress.begin(), m_byAddress.end());
-    const auto indexOf = [this](const void* object)
-    {
-        const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(object, 0));
-        return at != m_byAddress.end() && at->first == object ? at->second : -1;
-    };
+    for (std::size_t b = 0; b < bodies.size(); ++b) m_byAddress.add(bodies[b]->m_softBody, b);
     m_overlappingPairs.clear();
     m_broadphases.clear();
     for (const FemSoftBody* fem : bodies)
@@ -132,7 +130,7 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
         for (int i = 0; i < pairs.size(); ++i)
         {
             const void *a = pairs[i].m_pProxy0->m_clientObject, *b = pairs[i].m_pProxy1->m_clientObject;
-            const int first = indexOf(a), second = indexOf(b);
+            const int first = m_byAddress.find(a), second = m_byAddress.find(b);
             if (first >= 0 && second < 0) m_overlappingPairs.emplace_back(first, b);
             if (second >= 0 && first < 0) m_overlappingPairs.emplace_back(second, a);
         }
@@ -219,7 +217,7 @@ void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigi
 }
 
 // True if a program's own concave shape reports triangles: it need not, as Bullet's height fields do not. A shape that
-// has reported some is not tested again while it has that address.
+// reported some in this step or the last is not asked again.
 bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
 {
     struct Any : btTriangleCallback
@@ -227,13 +225,16 @@ bool RigidSearch::givesTriangles(const ShapeLeaf& leaf)
         bool m_any = false;
         void processTriangle(btVector3*, int, int) override { m_any = true; }
     } any;
-    const auto place = std::lower_bound(m_giving.begin(), m_giving.end(), leaf.m_shape, std::less<const void*>());
-    if (place != m_giving.end() && *place == leaf.m_shape) return true;
-    btVector3 low, high;
-    leaf.m_shape->getAabb(btTransform::getIdentity(), low, high);
-    forEachTriangle(*leaf.m_shape, low, high, any);
-    if (any.m_any) m_giving.insert(place, leaf.m_shape);
-    return any.m_any;
+    if (m_giving.find(leaf.m_shape) >= 0) return true;
+    if (m_gaveLast.find(leaf.m_shape) < 0)
+    {
+        btVector3 low, high;
+        leaf.m_shape->getAabb(btTransform::getIdentity(), low, high);
+        forEachTriangle(*leaf.m_shape, low, high, any);
+        if (!any.m_any) return false;
+    }
+    m_giving.add(leaf.m_shape, 0);
+    return true;
 }
 
 // The leaves of an object's shape, collected at the first call in a step.

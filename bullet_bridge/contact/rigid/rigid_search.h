@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_bridge/contact/rigid/contact_finder.h"
+#include "bullet_bridge/rigid/sorted_index.h"
 
 class btBroadphaseInterface;
 
@@ -22,6 +23,9 @@ public:
     explicit RigidSearch(const Threads& threads);
     RigidSearch(const RigidSearch&) = delete;
     RigidSearch& operator=(const RigidSearch&) = delete;
+
+    /// Call at the start of a step: shapes may have been deleted since the one before the last.
+    void beginStep();
 
     /// Call after solveFreeMotion, with `bodies` in an order that does not depend on addresses. Replaces m_contacts and
     /// m_origins of each body by those of this step, with m_soft.m_body = its index. Keeps at most maxContacts a body;
@@ -74,10 +78,11 @@ private:
     std::vector<ContactObject> m_touched;  // body by body
     std::vector<ShapeRange> m_shapes;      // one per rigid proxy
     btAlignedObjectArray<ShapeLeaf> m_leaves;
-    std::vector<const btCollisionShape*> m_giving;  // a program's own shapes that have reported triangles, ascending
-    std::vector<Carried> m_carried;                 // by object, ascending
+    SortedIndex<const btCollisionShape*> m_giving, m_gaveLast;  // a program's own shapes that reported triangles in
+                                                                // this step and in the last
+    std::vector<Carried> m_carried;                             // by object, ascending
     std::vector<ContactSearchReport> m_reports;
-    std::vector<std::pair<const void*, int>> m_byAddress;         // bodies by address, ascending
+    SortedIndex<const void*> m_byAddress;                         // bodies
     std::vector<const btBroadphaseInterface*> m_broadphases;      // the bodies' broad phases, each once
     std::vector<std::pair<int, const void*>> m_overlappingPairs;  // bodies and the objects that they overlap, ascending
 };

@@ -88,19 +88,19 @@ void SheetSearch::measureSurface(const FemSoftBody& fem)
     if (m_measured) return;
     m_measured = true;
     const std::vector<Vec3>& x = fem.surfacePosition();
-    const std::vector<Triangle>& triangles = fem.m_surface.triangles();
+    const std::vector<Triangle>& triangles = fem.m_surface.topology().triangles();
     m_outward.assign(x.size(), Vec3());
-    m_edgeOutward.assign(fem.m_surface.features().m_edges.size(), Vec3());
+    m_edgeOutward.assign(fem.m_surface.topology().edgeCount(), Vec3());
     for (std::size_t k = 0; k < triangles.size(); ++k)
     {
         const Vec3 n = normalOf(x, triangles[k]);
         for (int a = 0; a < 3; ++a)
         {
             m_outward[triangles[k][a]] += n;
-            m_edgeOutward[fem.m_surface.features().m_triangleEdges[k][a]] += n;
+            m_edgeOutward[fem.m_surface.topology().edgesOf(k)[a]] += n;
         }
     }
-    for (int i : fem.m_surface.nodes()) m_outward[i] = unit(m_outward[i]);
+    for (int i : fem.m_surface.topology().vertices()) m_outward[i] = unit(m_outward[i]);
 }
 
 // A point on the right side of the sheets: the remembered one if the leaf was near in the last step. A node that has
@@ -133,7 +133,7 @@ void SheetSearch::findOnNodes(const Sheets& sheets, const std::vector<Vec3>& hel
     const ContactTarget& target = sheets.m_target;
     const FemSoftBody& fem = sheets.m_scope.fem();
     const int objectId = broadphaseId(*target.m_object);
-    for (int i : fem.m_surface.nodes())
+    for (int i : fem.m_surface.topology().vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         const SheetProbe probe = {x, rightSideOf(sheets, i, x, heldNormal[i]), wayOf(fem, target, i),
@@ -158,7 +158,7 @@ void SheetSearch::findOnPaths(SearchScope& scope, const ContactTarget& target, c
     };
     std::size_t k = target.m_first, side = target.m_firstSide;
     bool isCollected = false;
-    for (int i : fem.m_surface.nodes())
+    for (int i : fem.m_surface.topology().vertices())
     {
         if (side == target.m_endSide) break;
         Vec3 way;
@@ -209,10 +209,10 @@ void SheetSearch::findOnTriangles(const Sheets& sheets, ContactList& list)
 {
     const SoftSurface& surface = sheets.m_scope.fem().m_surface;
     const std::vector<Vec3>& x = sheets.m_scope.fem().surfacePosition();
-    const int firstFeature = surface.vertexCount();
-    for (std::size_t k = 0; k < surface.triangles().size(); ++k)
+    const int firstFeature = surface.topology().vertexCount();
+    for (std::size_t k = 0; k < surface.topology().triangles().size(); ++k)
     {
-        const Triangle& t = surface.triangles()[k];
+        const Triangle& t = surface.topology().triangles()[k];
         SheetFeature feature;
         feature.m_outward = normalOf(x, t);
         double closing = 0;
@@ -233,8 +233,8 @@ void SheetSearch::findOnEdges(const Sheets& sheets, ContactList& list)
 {
     const SoftSurface& surface = sheets.m_scope.fem().m_surface;
     const std::vector<Vec3>& x = sheets.m_scope.fem().surfacePosition();
-    const int firstFeature = surface.vertexCount() + static_cast<int>(surface.triangles().size());
-    const std::vector<std::array<int, 2>>& edges = surface.features().m_edges;
+    const int firstFeature = surface.topology().vertexCount() + surface.topology().triangleCount();
+    const std::vector<std::array<int, 2>>& edges = surface.topology().edges();
     for (std::size_t k = 0; k < edges.size(); ++k)
     {
         const auto [a, b] = edges[k];

@@ -15,14 +15,14 @@ void SurfaceCulling::begin(const SoftSurface& surface, const std::vector<Vec3>& 
     m_gaps.resize(x.size());
     m_low = {kInfinity, kInfinity, kInfinity};
     m_high = -m_low;
-    for (int i : surface.nodes())
+    for (int i : surface.topology().vertices())
         for (int c = 0; c < 3; ++c)
         {
             m_low[c] = std::min(m_low[c], x[i][c]);
             m_high[c] = std::max(m_high[c], x[i][c]);
         }
     double longest = 0;
-    for (const auto& [a, b] : surface.features().m_edges)
+    for (const auto& [a, b] : surface.topology().edges())
     {
         const Vec3 edge = x[b] - x[a];
         longest = std::max(longest, dot(edge, edge));

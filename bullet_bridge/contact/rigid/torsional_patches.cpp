@@ -164,7 +164,7 @@ void TorsionalPatches::collectNodes(const Pair& pair, int patch, const ContactPr
 // are embedded in tetrahedra, whose nodes suffice.
 void TorsionalPatches::addNodes(const FemSoftBody& fem, const SurfacePoint& point)
 {
-    const SurfaceFeatures& features = fem.m_surface.features();
+    const SurfaceTopology& topology = fem.m_surface.topology();
     for (int a = 0; a < point.m_count; ++a)
     {
         const int node = point.m_nodes[a];
@@ -172,8 +172,8 @@ void TorsionalPatches::addNodes(const FemSoftBody& fem, const SurfacePoint& poin
         if (fem.m_skin)
             m_nodes.push_back(node);
         else
-            for (int k = features.m_firstAround[node]; k < features.m_firstAround[node + 1]; ++k)
-                for (int corner : fem.m_surface.triangles()[features.m_around[k]]) m_nodes.push_back(corner);
+            for (int t : topology.trianglesAt(node))
+                for (int corner : topology.triangles()[t]) m_nodes.push_back(corner);
     }
 }
 

@@ -64,14 +64,12 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
                         spread(contact.m_soft, contact.m_impulse, fem.m_memory.m_predicted);
                 });
     m_byId.clear();
-    for (FemSoftBody* fem : bodies)
-        if (fem->m_surface.isPlaceNoted()) m_byId.push_back({broadphaseId(*fem->m_softBody), fem});
-    const auto before = [](const Numbered& a, const Numbered& b) { return a.m_id < b.m_id; };
-    std::sort(m_byId.begin(), m_byId.end(), before);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (bodies[b]->m_notedPlace.isNoted()) m_byId.add(broadphaseId(*bodies[b]->m_softBody), b);
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)
     {
-        const auto at = std::lower_bound(m_byId.begin(), m_byId.end(), Numbered{id, nullptr}, before);
-        if (at != m_byId.end() && at->m_id == id) spread(point, impulse, at->m_fem->m_memory.m_predicted);
+        const int b = m_byId.find(id);
+        if (b >= 0) spread(point, impulse, bodies[b]->m_memory.m_predicted);
     };
     const SoftPairMemory::Last last = memory.last();
     for (std::size_t k = 0; k < last.m_count; ++k)

@@ -6,6 +6,7 @@
 
 #include "bullet_bridge/body/fem_soft_body.h"
 #include "bullet_bridge/contact/soft/soft_pair_memory.h"
+#include "bullet_bridge/rigid/sorted_index.h"
 
 namespace bullet_fem
 {
@@ -28,12 +29,7 @@ public:
     static void accept(FemSoftBody& fem, double step);
 
 private:
-    struct Numbered
-    {
-        int m_id;
-        FemSoftBody* m_fem;
-    };
-    std::vector<Numbered> m_byId;
+    SortedIndex<int> m_byId;  // bodies with noted places
 };
 
 }  // namespace bullet_fem

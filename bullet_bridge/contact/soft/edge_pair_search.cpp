@@ -54,14 +54,14 @@ bool hasNode(const Triangle& triangle, int node)
 // or ends do not count: they may slope away there.
 bool isCrossed(const SoftSurface& surface, int edge, const Vec3& from, const Vec3& way)
 {
-    const std::array<int, 2>& ends = surface.features().m_edges[edge];
+    const std::array<int, 2>& ends = surface.topology().edges()[edge];
     CoarseBox box = CoarseBox::of(from, {});
     box.add(CoarseBox::of(from + way, {}));
     bool crossed = false;
     surface.tree().visitNear(box, 0,
                              [&](int t)
                              {
-                                 const Triangle& nodes = surface.triangles()[t];
+                                 const Triangle& nodes = surface.topology().triangles()[t];
                                  if (hasNode(nodes, ends[0]) && hasNode(nodes, ends[1])) return;
                                  const Corners c = surface.tree().corners(t);
                                  const Vec3 n = surface.faceNormal(t);
@@ -111,7 +111,7 @@ void EdgePairSearch::listNear()
     const CoarseBox boxA = NearRidges::bounds(*m_first, m_second->tree().coarseBounds(), near);
     const CoarseBox boxB = NearRidges::bounds(*m_second, boxA, near);
     if (boxB.isEmpty()) return;
-    const Vec3 middle = m_first->middle(), direction = unit(m_second->middle() - middle);
+    const Vec3 middle = middleOf(*m_first), direction = unit(middleOf(*m_second) - middle);
     const BeyondPlane planeA(*m_first, direction, SurfaceRidges::kSteps);
     const BeyondPlane planeB(*m_second, -direction, SurfaceRidges::kSteps);
     m_ridgesA.list(*m_first, {boxB, planeB, near, band}, middle);
@@ -174,14 +174,14 @@ EdgePairSearch::Pair EdgePairSearch::pairOf(const SurfaceRidges::Ridge& a, const
 void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
 {
     const auto hasEdge = [](const SoftSurface& surface, int edge)
-    { return edge >= 0 && edge < static_cast<int>(surface.features().m_edges.size()); };
+    { return edge >= 0 && edge < surface.topology().edgeCount(); };
     if (!hasEdge(*m_first, held.m_first) || !hasEdge(*m_second, held.m_second)) return;
     const double bendA = m_first->bend(held.m_first), bendB = m_second->bend(held.m_second);
     const bool areRidges = SurfaceRidges::isRidge(bendA) && SurfaceRidges::isRidge(bendB);
     if (areRidges || bendA > kHeldBend || bendB > kHeldBend) return;
     const auto edgeOf = [](const SoftSurface& surface, int edge)
     {
-        const std::array<int, 2>& ends = surface.features().m_edges[edge];
+        const std::array<int, 2>& ends = surface.topology().edges()[edge];
         return SurfaceRidges::Ridge{edge, ends[0], ends[1]};
     };
     const Pair pair = pairOf(edgeOf(*m_first, held.m_first), edgeOf(*m_second, held.m_second));
@@ -192,11 +192,11 @@ void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
 // True if the normal, from B to A, lies between the normals of both faces at either edge, up to the tolerance.
 bool EdgePairSearch::separates(const Pair& pair, const Vec3& normal, double tolerance) const
 {
-    if (!(dot(normal, m_first->edgeNormal(pair.m_edgeA)) < 0 && dot(normal, m_second->edgeNormal(pair.m_edgeB)) > 0))
+    if (!(dot(normal, edgeNormal(*m_first, pair.m_edgeA)) < 0 && dot(normal, edgeNormal(*m_second, pair.m_edgeB)) > 0))
         return false;
-    for (const Vec3& into : m_first->intoFaces(pair.m_edgeA))
+    for (const Vec3& into : intoFaces(*m_first, pair.m_edgeA))
         if (!(dot(normal, into) >= -tolerance)) return false;
-    for (const Vec3& into : m_second->intoFaces(pair.m_edgeB))
+    for (const Vec3& into : intoFaces(*m_second, pair.m_edgeB))
         if (!(dot(normal, into) <= tolerance)) return false;
     return true;
 }
@@ -206,7 +206,7 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
 {
     if (!nearestOfLines(pair.m_x, kParallel, crossing.m_at) || !isInterior(crossing.m_at)) return false;
     crossing.m_normal = unitNormal(pair.m_x);
-    if (!(dot(crossing.m_normal, m_first->edgeNormal(pair.m_edgeA)) < 0)) crossing.m_normal = -crossing.m_normal;
+    if (!(dot(crossing.m_normal, edgeNormal(*m_first, pair.m_edgeA)) < 0)) crossing.m_normal = -crossing.m_normal;
     if (!separates(pair, crossing.m_normal, kNormalArcSine)) return false;
     crossing.m_gap = dot(crossing.m_normal, between(pair.m_x, crossing.m_at));
     if (crossing.m_gap >= m_reach.m_band)
@@ -239,7 +239,7 @@ bool EdgePairSearch::isFreeWayOut(const Pair& pair, const Crossing& crossing) co
     };
     const Vec3 way = -crossing.m_gap * n;  // from A's edge to B's
     const Vec3 aside =
-        -crossing.m_gap * (inward(m_first->intoFaces(pair.m_edgeA)) + inward(m_second->intoFaces(pair.m_edgeB)));
+        -crossing.m_gap * (inward(intoFaces(*m_first, pair.m_edgeA)) + inward(intoFaces(*m_second, pair.m_edgeB)));
     const Vec3 from = along(pair.m_x, 0, crossing.m_at.m_a) + aside;
     return !isCrossed(*m_first, pair.m_edgeA, from, way) && !isCrossed(*m_second, pair.m_edgeB, from, way);
 }

@@ -62,7 +62,7 @@ void NodeSurfaceSearch::forget()
         m_partner[i] = -1;
     }
     m_near.clear();
-    m_near.reserve(m_nodes->nodes().size());
+    m_near.reserve(m_nodes->topology().vertices().size());
     const std::size_t count = m_nodes->position().size();
     if (m_depth.size() >= count) return;
     m_depth.resize(count, kInfinity);
@@ -76,8 +76,8 @@ void NodeSurfaceSearch::listNear()
     m_nodes->tree().visitNear(m_faces->tree().coarseBounds(), m_reach.within(),
                               [this](int t)
                               {
-                                  for (int i : m_nodes->triangles()[t])
-                                      if (m_nodes->nodeOwner(i) == t) m_near.push_back(i);
+                                  for (int i : m_nodes->topology().triangles()[t])
+                                      if (*m_nodes->topology().trianglesAt(i).begin() == t) m_near.push_back(i);
                               });
     std::sort(m_near.begin(), m_near.end());
 }
@@ -85,7 +85,7 @@ void NodeSurfaceSearch::listNear()
 bool NodeSurfaceSearch::isClose(int node, int triangle) const
 {
     if (m_nodes != m_faces) return false;
-    const Triangle& t = m_faces->triangles()[triangle];
+    const Triangle& t = m_faces->topology().triangles()[triangle];
     return m_faces->areCloseAtRest(node, t[0]) || m_faces->areCloseAtRest(node, t[1]) ||
            m_faces->areCloseAtRest(node, t[2]);
 }
@@ -97,7 +97,7 @@ void NodeSurfaceSearch::findNode(int node)
     visit.m_x = m_nodes->position()[node];
     visit.m_change = m_nodes->change()[node];
     if (!lookAround(visit)) return;
-    visit.m_normal = m_nodes->nodeNormal(node);
+    visit.m_normal = nodeNormal(*m_nodes, node);
     m_hits.clear();
     m_faces->tree().visitNear(CoarseBox::of(visit.m_x, visit.m_change),
                               std::max(m_reach.within(), std::min(visit.m_limit, m_reach.depth())),
@@ -122,7 +122,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
     if (!self && ++m_looks == 1 && m_near.size() > kMinNodesForProof && m_faces->isPrepared())
-        m_outside = HalfSpaceCull(*m_faces, unit(m_nodes->middle() - m_faces->middle()));
+        m_outside = HalfSpaceCull(*m_faces, unit(middleOf(*m_nodes) - middleOf(*m_faces)));
     if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
@@ -132,7 +132,7 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     m_guess = visit.m_nearestTriangle;
     const Vec3 r = visit.m_x - visit.m_nearest.m_point;
     visit.m_distance = norm(r);
-    visit.m_inside = dot(r, m_faces->normalAt(visit.m_nearestTriangle, visit.m_nearest)) < 0;
+    visit.m_inside = dot(r, normalAt(*m_faces, visit.m_nearestTriangle, visit.m_nearest)) < 0;
     if (self)  // its own far side is behind the node, too: only shallow depths count
         visit.m_limit = m_reach.depth();
     else if (visit.m_inside)
@@ -149,7 +149,7 @@ bool NodeSurfaceSearch::placeOf(int triangle, const std::array<double, 3>& weigh
     for (int k = 0; k < 3; ++k)
     {
         if (weights[k] >= 0) continue;
-        const int edge = m_faces->features().m_triangleEdges[triangle][(k + 1) % 3];
+        const int edge = m_faces->topology().edgesOf(triangle)[(k + 1) % 3];
         const bool groove = m_faces->bend(edge) > kGrooveSine;
         const double beyond = -weights[k] * height(m_faces->tree().corners(triangle), k);
         if (beyond > (groove ? kGrooveReach : kRimReach) * m_reach.m_edge) return false;
@@ -190,8 +190,8 @@ bool NodeSurfaceSearch::isFacing(const Visit& visit, int triangle) const
 bool NodeSurfaceSearch::isNear(const Visit& visit, const Hit& hit) const
 {
     if (hit.m_gap < m_reach.m_band) return true;
-    const Vec3 travel =
-        visit.m_change - interpolated(m_faces->change(), m_faces->triangles()[hit.m_triangle], hit.m_weights);
+    const Vec3 travel = visit.m_change -
+                        interpolated(m_faces->change(), m_faces->topology().triangles()[hit.m_triangle], hit.m_weights);
     return hit.m_gap + dot(hit.m_normal, travel) < m_reach.within() && norm(travel) < m_reach.depth() + m_reach.m_fall;
 }
 
@@ -199,7 +199,7 @@ bool NodeSurfaceSearch::isNear(const Visit& visit, const Hit& hit) const
 // beyond them across its path. Nodes move on straight lines, so both times suffice.
 bool NodeSurfaceSearch::staysAside(const Visit& visit, const Hit& hit) const
 {
-    const Triangle& t = m_faces->triangles()[hit.m_triangle];
+    const Triangle& t = m_faces->topology().triangles()[hit.m_triangle];
     const std::vector<Vec3>&x = m_faces->position(), &change = m_faces->change();
     const auto isBeyond = [&](const Vec3& direction)
     {
@@ -222,7 +222,7 @@ bool NodeSurfaceSearch::staysAside(const Visit& visit, const Hit& hit) const
 // Tests whether a node in front of a face meets it on its path (continuous collision detection).
 void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
 {
-    const Triangle& t = m_faces->triangles()[triangle];
+    const Triangle& t = m_faces->topology().triangles()[triangle];
     const std::vector<Vec3>&x = m_faces->position(), &change = m_faces->change();
     const Vec3 middle = (1.0 / 3) * (change[t[0]] + change[t[1]] + change[t[2]]);
     const double travel = norm(visit.m_change - middle);
@@ -249,15 +249,6 @@ void NodeSurfaceSearch::tryImpact(const Visit& visit, int triangle)
     }
 }
 
-void NodeSurfaceSearch::choose(const Visit& visit)
-{
-    std::sort(m_hits.begin(), m_hits.end(), [](const Hit& a, const Hit& b) { return a.m_triangle < b.m_triangle; });
-    dropRims(visit);
-    dropDeeper();
-    dropLaterImpacts();
-    dropContinuations();
-}
-
 // Keeps a face beyond its rim only if the node lies over no other face; of several, the one that opposes the node's
 // normal most.
 void NodeSurfaceSearch::dropRims(const Visit& visit)
@@ -276,23 +267,21 @@ void NodeSurfaceSearch::dropRims(const Visit& visit)
     for (Hit& hit : m_hits) hit.m_dropped = hit.m_place == Place::rim && (over || &hit != best);
 }
 
-// Keeps the nearest face as the way out of the body, and a second one where that ends in a groove.
-void NodeSurfaceSearch::dropDeeper()
+// Keeps the nearest face as the way out of the body, and a second one where that ends in a groove; and the first
+// impact.
+void NodeSurfaceSearch::choose(const Visit& visit)
 {
-    double least = -kInfinity;
+    std::sort(m_hits.begin(), m_hits.end(), [](const Hit& a, const Hit& b) { return a.m_triangle < b.m_triangle; });
+    dropRims(visit);
+    double least = -kInfinity, first = kInfinity;
     for (const Hit& hit : m_hits)
+    {
         if (!hit.m_dropped && hit.m_gap < 0) least = std::max(least, hit.m_gap);
-    for (Hit& hit : m_hits)
-        if (hit.m_gap < least && hit.m_place != Place::groove) hit.m_dropped = true;
-}
-
-void NodeSurfaceSearch::dropLaterImpacts()
-{
-    double first = kInfinity;
-    for (const Hit& hit : m_hits)
         if (hit.m_time > 0) first = std::min(first, hit.m_time);
+    }
     for (Hit& hit : m_hits)
-        if (hit.m_time > first) hit.m_dropped = true;
+        if ((hit.m_gap < least && hit.m_place != Place::groove) || hit.m_time > first) hit.m_dropped = true;
+    dropContinuations();
 }
 
 // Keeps the nearest of faces that continue each other.
@@ -314,7 +303,7 @@ void NodeSurfaceSearch::tryNearestFeature(const Visit& visit)
     const Vec3 normal = (1 / visit.m_distance) * (visit.m_x - visit.m_nearest.m_point);
     const Hit hit = {
         visit.m_nearestTriangle, visit.m_nearest.m_weights, normal, visit.m_distance, 0, Place::over, false};
-    if (!isNear(visit, hit) || m_nodes->minAlongEdges(visit.m_node, normal) < kSeparatingSine) return;
+    if (!isNear(visit, hit) || minAlongEdges(*m_nodes, visit.m_node, normal) < kSeparatingSine) return;
     if (dot(visit.m_normal, normal) > kFacingCosine) return;
     const std::size_t count = m_touches->size();
     emit(visit, hit);
@@ -330,7 +319,7 @@ bool NodeSurfaceSearch::isPairedAlready(int node, int corner) const
 
 void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
 {
-    const Triangle& t = m_faces->triangles()[hit.m_triangle];
+    const Triangle& t = m_faces->topology().triangles()[hit.m_triangle];
     const int node = visit.m_node;
     SurfaceContact touch = {{node, node, node}, t,         {1, 0, 0}, hit.m_weights,
                             hit.m_normal,       hit.m_gap, node,      hit.m_triangle};
@@ -350,12 +339,12 @@ void NodeSurfaceSearch::emit(const Visit& visit, const Hit& hit)
     {
         if (isPairedAlready(node, t[corner])) return;
         m_partner[node] = t[corner];
-        if (m_faces->isFlatNode(t[corner])) useNormal(m_faces->nodeNormal(t[corner]));
+        if (isFlatNode(*m_faces, t[corner])) useNormal(nodeNormal(*m_faces, t[corner]));
     }
     else if (thin >= 0 && hit.m_time == 0)
     {
-        const int edge = m_faces->features().m_triangleEdges[hit.m_triangle][(thin + 1) % 3];
-        if (m_faces->isFlatEdge(edge)) useNormal(m_faces->edgeNormal(edge));
+        const int edge = m_faces->topology().edgesOf(hit.m_triangle)[(thin + 1) % 3];
+        if (isFlatEdge(*m_faces, edge)) useNormal(edgeNormal(*m_faces, edge));
     }
     if (!std::isfinite(touch.m_gap) || !isFinite(touch.m_normal)) return;
     if (touch.m_gap < 0 && -touch.m_gap < m_depth[node])

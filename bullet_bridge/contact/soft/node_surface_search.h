@@ -70,8 +70,6 @@ private:
     void tryImpact(const Visit& visit, int triangle);
     void choose(const Visit& visit);
     void dropRims(const Visit& visit);
-    void dropDeeper();
-    void dropLaterImpacts();
     void dropContinuations();
     void tryNearestFeature(const Visit& visit);
     void emit(const Visit& visit, const Hit& hit);

@@ -77,7 +77,7 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
 
     SoftPairReport report;
     report.m_thinned = thin(first, second);
-    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
     m_continued.assign(m_last.m_count, 0);
     transferImpulses();
     inheritImpulses(first, second);
@@ -111,7 +111,7 @@ SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSid
         contact.m_slip = last.m_slip;
     }
     SoftPairReport report;
-    report.m_limited = keepNearest(maxContacts, m_found, m_foundOrigins, m_order);
+    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
     tell(report, contacts, origins);
     return report;
 }
@@ -157,8 +157,9 @@ Vec3 SoftPairFinder::patchOf(const Roles& roles, const SurfaceContact& touch, co
                                  fem.m_surface.size(), std::nullopt};
         for (int a = 0; a < 3; ++a)
         {
-            side.m_curvature += weights[a] * fem.m_surface.curvature(nodes[a]);
-            if (fem.m_surface.hasFewFacets(nodes[a])) side.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
+            side.m_curvature += weights[a] * fem.m_surface.curvature().m_largest[nodes[a]];
+            if (fem.m_surface.curvature().m_hasFewFacets[nodes[a]])
+                side.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
         }
         side.m_curvature = roundness(side.m_curvature, side.m_size);
         return side;

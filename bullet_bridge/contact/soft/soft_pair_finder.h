@@ -41,7 +41,7 @@ public:
     /// `memory` holds the contacts whose impulses are the warm start; it must outlive the finder.
     explicit SoftPairFinder(const SoftPairMemory& memory) : m_memory(&memory) {}
 
-    /// Call after solveFreeMotion and SoftSurface::update of both. Appends at most maxContacts contacts with warm
+    /// Call after solveFreeMotion and SoftSurface::prepareAll of both. Appends at most maxContacts contacts with warm
     /// start, ascending by origin. m_soft is the node of node contacts, and the first body's point of edge contacts.
     /// Exchanging first and second changes the order, and the roles in edge contacts, but not the points.
     SoftPairReport find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,

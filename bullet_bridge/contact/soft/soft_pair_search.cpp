@@ -19,6 +19,12 @@ namespace
 // Largest displacement of a still body's nodes since they were noted, in mean edges. Two still bodies approach each
 // other by up to four times as much since they were searched: half the contact band.
 constexpr double kStillShare = 0.00625;
+constexpr int kFineTriangles = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
+
+bool isFine(const SoftSurface& surface)
+{
+    return surface.topology().triangleCount() >= kFineTriangles;
+}
 
 }  // namespace
 
@@ -34,8 +40,8 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
-                      m_isStill[b] = fem.m_surface.isStill(fem.surfacePosition(), fem.surfaceVelocity(), step,
-                                                           kStillShare * m_smallestEdge[b]);
+                      m_sides[b].m_isStill = fem.m_notedPlace.isStill(fem.surfacePosition(), fem.surfaceVelocity(),
+                                                                      step, kStillShare * m_sides[b].m_smallestEdge);
                   });
     choosePairs();
     m_threads.run(paired,
@@ -43,9 +49,9 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                   {
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
-                      if (!m_isSearched[b]) return;
+                      if (!m_sides[b].m_isSearched) return;
                       fem.m_surface.place(fem.surfacePosition(), fem.surfaceVelocity(), step);
-                      if (!fem.m_surface.isFine()) fem.m_surface.prepareAll();
+                      if (!isFine(fem.m_surface)) fem.m_surface.prepareAll();
                       fem.m_search.m_meanMotion = meanMotion(fem.m_body);
                   });
     listNearby(bodies);
@@ -53,12 +59,11 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                   [&](int k) { bodies[m_fine[k]]->m_surface.prepareNear(m_nearby[m_fine[k]]); });
     m_moved.clear();
     for (int b : m_paired)
-        if (!m_isStill[b]) m_moved.push_back(bodies[b]);
+        if (!m_sides[b].m_isStill) m_moved.push_back(bodies[b]);
     m_threads.run(kParts, [&](int part) { findPairs(bodies, maxContacts, part); });
     collectParts();
-    m_limited.assign(bodies.size(), 0);
     for (const Pair& pair : m_pairs)
-        if (pair.m_limited) m_limited[pair.m_first] = 1;
+        if (pair.m_limited) m_sides[pair.m_first].m_isLimited = true;
 }
 
 void SoftPairSearch::collectParts()
@@ -83,8 +88,9 @@ void SoftPairSearch::choosePairs()
 {
     for (Pair& pair : m_pairs)
     {
-        pair.m_searched = !(m_isStill[pair.m_first] && m_isStill[pair.m_second] && m_memory.isComplete(pair.m_ids));
-        if (pair.m_searched) m_isSearched[pair.m_first] = m_isSearched[pair.m_second] = 1;
+        Side &first = m_sides[pair.m_first], &second = m_sides[pair.m_second];
+        pair.m_searched = !(first.m_isStill && second.m_isStill && m_memory.isComplete(pair.m_ids));
+        if (pair.m_searched) first.m_isSearched = second.m_isSearched = true;
     }
 }
 
@@ -94,7 +100,7 @@ void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
     if (m_nearby.size() < bodies.size()) m_nearby.resize(bodies.size());
     m_fine.clear();
     for (int b : m_paired)
-        if (m_isSearched[b] && bodies[b]->m_surface.isFine()) m_fine.push_back(b);
+        if (m_sides[b].m_isSearched && isFine(bodies[b]->m_surface)) m_fine.push_back(b);
     if (m_fine.empty()) return;
     for (int b : m_fine) m_nearby[b].clear();
     for (const Pair& pair : m_pairs)
@@ -110,10 +116,12 @@ void SoftPairSearch::listNearby(const std::vector<FemSoftBody*>& bodies)
 // The first body of a pair is the one of smaller broadphase id.
 void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
 {
-    for (std::vector<unsigned char>* flags : {&m_isStill, &m_isSearched}) flags->assign(bodies.size(), 0);
-    m_smallestEdge.assign(bodies.size(), 0);
+    m_sides.assign(bodies.size(), {});
     const auto pairWith = [&](int b, double edge)
-    { m_smallestEdge[b] = m_smallestEdge[b] > 0 ? std::min(m_smallestEdge[b], edge) : edge; };
+    {
+        double& smallest = m_sides[b].m_smallestEdge;
+        smallest = smallest > 0 ? std::min(smallest, edge) : edge;
+    };
     listOverlaps(bodies);
     m_pairs.clear();
     for (const auto& [a, b] : m_overlapping)
@@ -129,23 +137,20 @@ void SoftPairSearch::listPairs(const std::vector<FemSoftBody*>& bodies)
     }
     m_paired.clear();
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (m_smallestEdge[b] > 0) m_paired.push_back(static_cast<int>(b));
+        if (m_sides[b].m_smallestEdge > 0) m_paired.push_back(static_cast<int>(b));
 }
 
 // A pair may be recorded by either body, or by both.
 void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
 {
     m_byAddress.clear();
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        m_byAddress.emplace_back(bodies[b]->m_softBody, static_cast<int>(b));
-    std::sort(m_byAddress.begin(), m_byAddress.end());
+    for (std::size_t b = 0; b < bodies.size(); ++b) m_byAddress.add(bodies[b]->m_softBody, b);
     m_overlapping.clear();
     for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
         for (const btSoftBody* other : bodies[a]->m_overlaps.m_soft)
         {
-            const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(other, 0));
-            if (at != m_byAddress.end() && at->first == other && mayTouch(*bodies[a], *bodies[at->second]))
-                m_overlapping.emplace_back(std::min(a, at->second), std::max(a, at->second));
+            const int b = m_byAddress.find(other);
+            if (b >= 0 && mayTouch(*bodies[a], *bodies[b])) m_overlapping.emplace_back(std::min(a, b), std::max(a, b));
         }
     std::sort(m_overlapping.begin(), m_overlapping.end());
     m_overlapping.erase(std::unique(m_overlapping.begin(), m_overlapping.end()), m_overlapping.end());
@@ -177,7 +182,7 @@ void SoftPairSearch::remember(const ContactPoint* solved)
     for (const Pair& pair : m_pairs)
         if (pair.m_complete) m_complete.push_back(pair.m_ids);
     m_memory.remember({solved, m_origins.data(), m_origins.size()}, m_complete);
-    for (FemSoftBody* fem : m_moved) fem->m_surface.notePlace();
+    for (FemSoftBody* fem : m_moved) fem->m_notedPlace.note(fem->m_surface.position());
 }
 
 int SoftPairSearch::searchedPairs() const

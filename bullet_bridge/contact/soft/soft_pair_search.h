@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bullet_bridge/contact/soft/soft_pair_finder.h"
+#include "bullet_bridge/rigid/sorted_index.h"
 
 namespace bullet_fem
 {
@@ -32,7 +33,7 @@ public:
     const std::vector<SoftPairOrigin>& origins() const { return m_origins; }
 
     /// True if a pair whose first body is b had more contacts than find() keeps.
-    bool isLimited(std::size_t b) const { return m_limited[b] != 0; }
+    bool isLimited(std::size_t b) const { return m_sides[b].m_isLimited; }
 
     /// Remembers the solved contacts for the next step: one for each of contacts(), in that order.
     void remember(const ContactPoint* solved);
@@ -53,6 +54,11 @@ private:
         SoftPairIds m_ids;
         bool m_searched, m_limited, m_complete;
     };
+    struct Side  // a body
+    {
+        double m_smallestEdge = 0;  // smallest mean edge of it and its partners [m]; 0: it has none
+        bool m_isStill = false, m_isSearched = false, m_isLimited = false;  // searched or limited: some pair with it is
+    };
     struct Part
     {
         explicit Part(const SoftPairMemory& memory) : m_finder(memory) {}
@@ -71,17 +77,15 @@ private:
     const Threads& m_threads;
     SoftPairMemory m_memory;
     std::vector<Part> m_parts;
-    std::vector<std::pair<const btSoftBody*, int>> m_byAddress;  // bodies by address, ascending
-    std::vector<std::pair<int, int>> m_overlapping;              // pairs of bodies, the smaller index first; ascending
+    SortedIndex<const btSoftBody*> m_byAddress;
+    std::vector<std::pair<int, int>> m_overlapping;  // pairs of bodies, the smaller index first; ascending
     std::vector<Pair> m_pairs;
-    std::vector<SoftPairIds> m_complete;  // scratch: pairs with all of their contacts
-    std::vector<int> m_paired;            // bodies that are in some pair
-    std::vector<double> m_smallestEdge;   // per body: smallest mean edge of it and its partners [m]; 0: it has none
-    std::vector<unsigned char> m_isStill, m_isSearched;      // per body; searched: it is in a pair that is searched
+    std::vector<SoftPairIds> m_complete;                     // scratch: pairs with all of their contacts
+    std::vector<int> m_paired;                               // bodies that are in some pair
+    std::vector<Side> m_sides;                               // per body
     std::vector<FemSoftBody*> m_moved;                       // bodies of some pair that are not still
     std::vector<int> m_fine;                                 // searched bodies with fine surfaces
     std::vector<std::vector<SurfaceTree::Nearby>> m_nearby;  // per body; filled for those in m_fine
-    std::vector<unsigned char> m_limited;                    // per body: a pair was limited
     std::vector<std::size_t> m_firstOfPart;                  // first contact of each chunk, and the total count
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;

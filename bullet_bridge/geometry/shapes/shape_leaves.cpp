@@ -29,10 +29,7 @@ Mat3 orthonormalised(const Mat3& R)
 
 Pose poseOf(const btTransform& transform)
 {
-    const btMatrix3x3& basis = transform.getBasis();
-    return {orthonormalised(
-                Mat3::fromColumns(vec3(basis.getColumn(0)), vec3(basis.getColumn(1)), vec3(basis.getColumn(2)))),
-            vec3(transform.getOrigin())};
+    return {orthonormalised(mat3(transform.getBasis())), vec3(transform.getOrigin())};
 }
 
 /// The mesh, if the class is Bullet's: a program's own class may use the type number of Bullet's.
@@ -64,12 +61,8 @@ void setBounds(ShapeLeaf& leaf)
         leaf.m_boundsMax = {infinity, infinity, infinity};
         return;
     }
-    const Mat3& R = leaf.m_pose.m_rotation;
-    const btMatrix3x3 basis(btScalar(R(0, 0)), btScalar(R(0, 1)), btScalar(R(0, 2)), btScalar(R(1, 0)),
-                            btScalar(R(1, 1)), btScalar(R(1, 2)), btScalar(R(2, 0)), btScalar(R(2, 1)),
-                            btScalar(R(2, 2)));
     btVector3 boundsMin, boundsMax;
-    leaf.m_shape->getAabb(btTransform(basis, btVector3(0, 0, 0)), boundsMin, boundsMax);
+    leaf.m_shape->getAabb(btTransform(bulletMatrix(leaf.m_pose.m_rotation), btVector3(0, 0, 0)), boundsMin, boundsMax);
     // Bullet omits the margin of scaled and of GImpact meshes.
     const double margin = leaf.m_shape->isConcave() ? double(leaf.m_shape->getMargin()) : 0;
     const double rounding = margin + 1e-6 * (norm(vec3(boundsMin)) + norm(vec3(boundsMax)));

@@ -20,7 +20,7 @@ public:
     /// steps.
     BeyondPlane(const SoftSurface& surface, const Vec3& direction, int steps) : m_direction(direction), m_steps(steps)
     {
-        for (int i : surface.nodes())
+        for (int i : surface.topology().vertices())
         {
             m_max = std::max(m_max, dot(direction, surface.position()[i]));
             m_maxChange = std::max(m_maxChange, dot(direction, surface.change()[i]));

@@ -18,20 +18,20 @@ constexpr double kRoundingShare = 1e-9;      // relative rounding error of lengt
 
 HalfSpaceCull::HalfSpaceCull(const SoftSurface& surface, const Vec3& direction) : m_direction(direction)
 {
-    if (!surface.isClosed()) return;
+    if (!surface.topology().isClosed()) return;
     const std::vector<Vec3>& x = surface.position();
     m_front = -VectorBounds::kInfinity;
-    for (int i : surface.nodes())
+    for (int i : surface.topology().vertices())
     {
         const double front = dot(direction, x[i]);
         if (!(front > m_front)) continue;
         m_front = front;
         m_foremost = x[i];
     }
-    for (std::size_t t = 0; t < surface.triangles().size(); ++t)
+    for (std::size_t t = 0; t < surface.topology().triangles().size(); ++t)
     {
         if (dot(direction, surface.faceNormal(static_cast<int>(t))) > kProofFacingCosine) continue;
-        for (int i : surface.triangles()[t]) m_back = std::max(m_back, dot(direction, x[i]));
+        for (int i : surface.topology().triangles()[t]) m_back = std::max(m_back, dot(direction, x[i]));
     }
 }
 

@@ -7,22 +7,22 @@
 namespace bullet_fem
 {
 
-SurfaceRidges::SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree& tree)
+SurfaceRidges::SurfaceRidges(const SurfaceTopology& topology, const SurfaceTree& tree)
 {
-    const int count = static_cast<int>(features.m_triangleEdges.size());
-    std::vector<unsigned char> owned(features.m_edges.size(), 0);
-    std::vector<int> owner(features.m_edges.size());
+    const int count = topology.triangleCount();
+    std::vector<unsigned char> owned(topology.edgeCount(), 0);
+    std::vector<int> owner(topology.edgeCount());
     for (int t = count - 1; t >= 0; --t)
-        for (int edge : features.m_triangleEdges[t]) owner[edge] = t;
+        for (int edge : topology.edgesOf(t)) owner[edge] = t;
     m_firstEdge.push_back(0);
     for (int place = 0; place < count; ++place)
     {
         const int t = tree.triangleAt(place);
-        for (int edge : features.m_triangleEdges[t])
+        for (int edge : topology.edgesOf(t))
         {
             if (owner[edge] != t || owned[edge]) continue;
             owned[edge] = 1;
-            m_edges.push_back({edge, features.m_edges[edge][0], features.m_edges[edge][1]});
+            m_edges.push_back({edge, topology.edges()[edge][0], topology.edges()[edge][1]});
         }
         m_firstEdge.push_back(static_cast<int>(m_edges.size()));
     }

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/geometry/surface/surface_features.h"
+#include "bullet_bridge/geometry/surface/surface_topology.h"
 #include "bullet_bridge/geometry/surface/surface_tree.h"
 
 namespace bullet_fem
@@ -24,7 +24,7 @@ public:
     static bool isRidge(double bend) { return bend < kRidge; }
 
     /// Assigns each edge to the leaf of the first of its triangles.
-    SurfaceRidges(const SurfaceFeatures& features, const SurfaceTree& tree);
+    SurfaceRidges(const SurfaceTopology& topology, const SurfaceTree& tree);
 
     /// Updates all ridges after the tree was refitted. `bend`: that of all edges, as in SoftSurface.
     void update(const SurfaceTree& tree, const std::vector<double>& bend);

@@ -62,33 +62,26 @@ void SurfaceTree::refit(const std::vector<Vec3>& x, const std::vector<Vec3>& cha
     if (m_triangles.empty()) return;
     for (int at = nodeCount() - 1; at >= 0; --at)
     {
-        if (m_nodes[at].isLeaf())
-            refitLeaf(at);
+        const Node& node = m_nodes[at];
+        CoarseBox box = CoarseBox::empty();
+        if (node.isLeaf())
+        {
+            const Triangle &first = m_placed[node.m_next], &last = m_placed[node.m_next + node.m_count - 1];
+            for (int i : first) box.add(m_vertexBoxes[i]);
+            for (int i : last) box.add(m_vertexBoxes[i]);
+            m_parts[at] = BoxPair::of(m_x, first, last);
+        }
         else
-            refitInner(at);
+        {
+            const auto [left, right] = children(at);
+            box = m_boxes[left];
+            box.add(m_boxes[right]);
+            m_parts[at] = BoxPair::around(m_parts[left], m_parts[right]);
+        }
+        m_boxes[at] = box;
     }
     m_bounds.m_start = m_parts.front()[0];
     m_bounds.m_start.add(m_parts.front()[1]);
-}
-
-void SurfaceTree::refitLeaf(int at)
-{
-    const Node& node = m_nodes[at];
-    const Triangle &first = m_placed[node.m_next], &last = m_placed[node.m_next + node.m_count - 1];
-    CoarseBox box = CoarseBox::empty();
-    for (int i : first) box.add(m_vertexBoxes[i]);
-    for (int i : last) box.add(m_vertexBoxes[i]);
-    m_boxes[at] = box;
-    m_parts[at] = BoxPair::of(m_x, first, last);
-}
-
-void SurfaceTree::refitInner(int at)
-{
-    const auto [left, right] = children(at);
-    CoarseBox box = m_boxes[left];
-    box.add(m_boxes[right]);
-    m_boxes[at] = box;
-    m_parts[at] = BoxPair::around(m_parts[left], m_parts[right]);
 }
 
 }  // namespace bullet_fem

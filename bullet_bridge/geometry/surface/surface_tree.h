@@ -35,19 +35,12 @@ public:
     template <class Visit>
     void visitNear(const CoarseBox& box, double reach, Visit visit) const
     {
-        const float most = coarse(reach);
-        int stack[kDepth], size = 0;
-        stack[size++] = 0;
-        while (size > 0)
+        const auto visitTriangles = [&](int at)
         {
-            const int at = stack[--size];
             const Node& node = m_nodes[at];
-            if (!m_boxes[at].meets(box, most)) continue;
             for (int k = 0; k < node.m_count; ++k) visit(m_order[node.m_next + k]);
-            if (node.isLeaf()) continue;
-            stack[size++] = node.m_next;
-            stack[size++] = at + 1;
-        }
+        };
+        visitNodes([&, most = coarse(reach)](int at) { return m_boxes[at].meets(box, most); }, visitTriangles);
     }
 
     /// Calls visit(node) for all nodes of the tree that may come within reach of one of the boxes, parents first, in
@@ -60,19 +53,13 @@ public:
     template <class Visit>
     void visitNearNodes(const std::vector<Nearby>& boxes, Visit visit) const
     {
-        int stack[kDepth], size = 0;
-        stack[size++] = 0;
-        while (size > 0)
+        const auto isNear = [&](int at)
         {
-            const int at = stack[--size];
-            const auto isNear = [&](const Nearby& nearby)
-            { return m_boxes[at].meets(nearby.m_box, coarse(nearby.m_reach)); };
-            if (std::none_of(boxes.begin(), boxes.end(), isNear)) continue;
-            visit(at);
-            if (m_nodes[at].isLeaf()) continue;
-            stack[size++] = m_nodes[at].m_next;
-            stack[size++] = at + 1;
-        }
+            return std::any_of(boxes.begin(), boxes.end(),
+                               [&](const Nearby& nearby)
+                               { return m_boxes[at].meets(nearby.m_box, coarse(nearby.m_reach)); });
+        };
+        visitNodes(isNear, visit);
     }
 
     /// A leaf's triangles: a range of arguments of triangleAt().
@@ -94,21 +81,11 @@ public:
     template <class Visit>
     void visitNearLeaves(const CoarseBox& box, double reach, const unsigned char* has, Visit visit) const
     {
-        const float most = coarse(reach);
-        int stack[kDepth], size = 0;
-        stack[size++] = 0;
-        while (size > 0)
+        const auto visitLeaf = [&](int at)
         {
-            const int at = stack[--size];
-            if (!has[at] || !m_boxes[at].meets(box, most)) continue;
-            if (m_nodes[at].isLeaf())
-            {
-                visit(at);
-                continue;
-            }
-            stack[size++] = m_nodes[at].m_next;
-            stack[size++] = at + 1;
-        }
+            if (m_nodes[at].isLeaf()) visit(at);
+        };
+        visitNodes([&, most = coarse(reach)](int at) { return has[at] && m_boxes[at].meets(box, most); }, visitLeaf);
     }
 
     /// The triangle nearest to p at the start without those for which skip(triangle) is true; -1 if none is closer than
@@ -117,9 +94,21 @@ public:
     template <class Skip>
     int nearestTriangle(const Vec3& p, double most, Skip skip, TrianglePoint& nearest, int guess = -1) const
     {
+        // Smallest squared distance of a box from p from which on, despite rounding, no point in it is as close as
+        // `least`.
+        const auto surelyFarther = [&p](double least)
+        {
+            const double distance = std::sqrt(least), size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
+            const double farther = distance + 1e-12 * (distance + size);
+            return farther * farther;
+        };
         double least = most * most;
-        if (guess >= 0 && !skip(guess)) least = std::min(least, notNearer(p, guess));
-        double farther = surelyFarther(p, least);
+        if (guess >= 0 && !skip(guess))
+        {
+            const Vec3 r = p - nearestOnTriangle(corners(guess), p).m_point;
+            least = std::min(least, surelyFarther(dot(r, r)) + std::numeric_limits<double>::min());
+        }
+        double farther = surelyFarther(least);
         int found = -1;
         Ahead stack[kDepth];
         int size = 0;
@@ -137,7 +126,7 @@ public:
                 const Vec3 r = p - candidate.m_point;
                 if (!(dot(r, r) < least)) continue;
                 least = dot(r, r);
-                farther = surelyFarther(p, least);
+                farther = surelyFarther(least);
                 nearest = candidate;
                 found = m_order[node.m_next + k];
             }
@@ -174,24 +163,24 @@ private:
         double m_squaredDistance;
     };
 
-    // Smallest squared distance of a box from p from which on, despite rounding, no point in it is as close as `least`.
-    static double surelyFarther(const Vec3& p, double least)
+    // Visits nodes for which isNear(node) is true, those below others after them.
+    template <class IsNear, class Visit>
+    void visitNodes(IsNear isNear, Visit visit) const
     {
-        const double distance = std::sqrt(least), size = std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
-        const double farther = distance + 1e-12 * (distance + size);
-        return farther * farther;
-    }
-
-    // A squared distance larger than that of a triangle from p, despite rounding.
-    double notNearer(const Vec3& p, int triangle) const
-    {
-        const Vec3 r = p - nearestOnTriangle(corners(triangle), p).m_point;
-        return surelyFarther(p, dot(r, r)) + std::numeric_limits<double>::min();
+        int stack[kDepth], size = 0;
+        stack[size++] = 0;
+        while (size > 0)
+        {
+            const int at = stack[--size];
+            if (!isNear(at)) continue;
+            visit(at);
+            if (m_nodes[at].isLeaf()) continue;
+            stack[size++] = m_nodes[at].m_next;
+            stack[size++] = at + 1;
+        }
     }
 
     int build(int first, int count, std::vector<Vec3>& middles);
-    void refitLeaf(int at);
-    void refitInner(int at);
     Corners cornersOf(const Triangle& t) const { return {m_x[t[0]], m_x[t[1]], m_x[t[2]]}; }
 
     std::vector<Triangle> m_triangles;

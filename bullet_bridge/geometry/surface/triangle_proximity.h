@@ -28,6 +28,19 @@ struct TrianglePoint
 
 using Corners = std::array<Vec3, 3>;  ///< corners of a triangle [m]
 
+/// The unit vector of a; zero if a is zero.
+inline Vec3 unit(const Vec3& a)
+{
+    const double length = norm(a);
+    return length > 0 ? (1 / length) * a : Vec3();
+}
+
+/// The unit normal of a triangle; zero without area.
+inline Vec3 normalOf(const Corners& t)
+{
+    return unit(cross(t[1] - t[0], t[2] - t[0]));
+}
+
 /// The point of a triangle that is nearest to p. The triangle may degenerate to a line or a point.
 TrianglePoint nearestOnTriangle(const Corners& t, const Vec3& p);
 
