@@ -21,9 +21,8 @@ constexpr double kFacingCosineAtImpact = -0.25;  // that cosine at an impact: gr
 constexpr double kSeparatingSine = -0.05;        // smallest sine of a body's edges above a separating plane
 constexpr double kSameNormalCosine = 0.99;       // smallest cosine of normals that count as one
 constexpr double kSameWayOutCosine = 0.9;        // smallest cosine of ways out that count as one
-constexpr double kCornerWeight = 2e-3;        // largest barycentric weight that counts as zero, near a corner or edge
-constexpr std::size_t kMinNodesForProof = 8;  // nodes near the other body from which on the proof pays off
-constexpr double kDeepest = 3;                // largest depth along a way out over the distance from the surface
+constexpr double kCornerWeight = 2e-3;  // largest barycentric weight that counts as zero, near a corner or edge
+constexpr double kDeepest = 3;          // largest depth along a way out over the distance from the surface
 
 double height(const Corners& t, int corner)
 {
@@ -43,8 +42,6 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
     m_touches = &touches;
     forget();
     listNear();
-    m_outside = HalfSpaceCull();
-    m_looks = 0;
     m_guess = -1;
     for (int i : m_near) findNode(i);
 }
@@ -121,9 +118,6 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
     if (!bounds.meets(point, m_reach.within())) return false;
     const double travel = largestTravel(point, bounds);
     const bool self = m_nodes == m_faces;
-    if (!self && ++m_looks == 1 && m_near.size() > kMinNodesForProof && m_faces->isPrepared())
-        m_outside = HalfSpaceCull(*m_faces, unit(middleOf(*m_nodes) - middleOf(*m_faces)));
-    if (m_outside.isFarOutside(visit.m_x, m_reach.within() + travel)) return false;
     const bool maybeInside = !self && bounds.m_start.squaredDistance(visit.m_x) == 0;
     const double most = maybeInside ? kInfinity : std::max(m_reach.within(), m_reach.depth()) + travel;
     visit.m_nearestTriangle = m_faces->tree().nearestTriangle(

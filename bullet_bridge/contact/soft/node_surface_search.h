@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_bridge/geometry/surface/half_space_cull.h"
 #include "bullet_bridge/geometry/surface/surface_contact.h"
 
 namespace bullet_fem
@@ -78,8 +77,6 @@ private:
     const SoftSurface *m_nodes = nullptr, *m_faces = nullptr;
     const NodeSurfaceSearch* m_done = nullptr;
     ContactReach m_reach;
-    HalfSpaceCull m_outside;  // of the faces; made once it pays off
-    int m_looks = 0;
     int m_guess = -1;  // triangle nearest to the last node: consecutive nodes are often neighbours
     std::vector<SurfaceContact>* m_touches = nullptr;
     std::vector<Hit> m_hits;
