@@ -35,8 +35,7 @@ FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> 
       m_setUp{&softBody.m_nodes[0], TopologyMarks(softBody), vec3(softBody.m_nodes[0].m_x), {}},
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
-      m_surface(boundaryOf(m_body.m_model->mesh())),
-      m_notedPlace(m_surface.topology().vertices())
+      m_surface(boundaryOf(m_body.m_model->mesh()))
 {
     const int n = softBody.m_nodes.size();
     m_pins.m_velocity.resize(n);
@@ -70,12 +69,12 @@ void FemSoftBody::sizeScratch()
     m_memory.m_contacts.clear();
     m_memory.m_origins.clear();
     m_memory.m_impacts.clear();
+    m_memory.m_place = NotedPlace(m_surface.topology().vertices());
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
 {
     m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(boundaryOf(m_body.m_model->mesh()));
-    m_notedPlace = NotedPlace(m_surface.topology().vertices());
     if (skin || m_skin) m_memory.m_sheetSides.clear();
     m_skin = std::move(skin);
     m_skinMotion.m_position.resize(m_skin ? m_surface.topology().vertexCount() : 0);

@@ -112,6 +112,7 @@ struct ContactMemory
     std::vector<ContactOrigin> m_origins;  ///< one per contact, ascending
     std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
     std::vector<Impact> m_impacts;         ///< collisions that are not over
+    NotedPlace m_place;                    ///< of the collision surface at the last soft contact search
 };
 
 /// Found at set-up in the btSoftBody, for comparison with its present state.
@@ -189,7 +190,6 @@ struct FemSoftBody
     HeldJoints m_joints;  ///< joints, attachments and springs of the body
     ContactMemory m_memory;
     SoftSurface m_surface;                        ///< collision surface; call its place() before soft contact searches
-    NotedPlace m_notedPlace;                      ///< of m_surface at the last soft contact search
     std::shared_ptr<const CollisionSkin> m_skin;  ///< collision surface embedded in the mesh; null: the mesh's boundary
     SearchScratch m_search;
 

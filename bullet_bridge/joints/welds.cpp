@@ -113,7 +113,7 @@ int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld
         a.m_joints.m_attachments.push_back(tie);
     }
     a.m_joints.m_welds.push_back(std::move(weld));
-    a.m_notedPlace.forget();  // welded surfaces have no contact
+    a.m_memory.m_place.forget();  // welded surfaces have no contact
     return a.m_joints.m_lastId;
 }
 

@@ -228,7 +228,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
     }
     for (const Weld& weld : fem.m_joints.m_welds) s.m_welds.push_back({weld, world.idOf(weld.m_other)});
     s.m_lastAttachment = fem.m_joints.m_lastId;
-    s.m_place = fem.m_notedPlace.positions();
+    s.m_place = fem.m_memory.m_place.positions();
     return s;
 }
 
@@ -276,7 +276,7 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
     fem.m_overlaps.m_rigid.clear();
     fem.m_overlaps.m_soft.clear();
     restoreJoints(s, world, fem.m_joints);
-    fem.m_notedPlace.restore(s.m_place);
+    fem.m_memory.m_place.restore(s.m_place);
 }
 
 void checkAndDrop(SoftPairMemory::Kept& kept, const WorldIds& world)

@@ -118,7 +118,7 @@ int attachNode(FemSoftBody& body, int node, const FemSoftBody& other, const std:
     attachment.m_otherNodes = otherNodes;
     attachment.m_weights = weights;
     body.m_joints.m_attachments.push_back(attachment);
-    body.m_notedPlace.forget();  // attached nodes have no contact
+    body.m_memory.m_place.forget();  // attached nodes have no contact
     return attachment.m_id;
 }
 
@@ -134,7 +134,7 @@ void detachNode(FemSoftBody& body, int attachment)
     cloth.erase(
         std::remove_if(cloth.begin(), cloth.end(), [&](const ClothAttachment& a) { return a.m_id == attachment; }),
         cloth.end());
-    body.m_notedPlace.forget();  // detached nodes have contact again
+    body.m_memory.m_place.forget();  // detached nodes have contact again
 }
 
 void setTargets(FemSoftBody& body, const btFemNodeGroup& group, const btVector3* positions)

@@ -22,7 +22,7 @@ void btFemWeldBreaker::breakWelds(const std::vector<FemSoftBody*>& bodies, doubl
             const auto other = std::find_if(bodies.begin(), bodies.end(), isOther);
             for (FemSoftBody* part : {fem, other != bodies.end() ? *other : fem})
             {
-                part->m_notedPlace.forget();  // parted surfaces have contact again
+                part->m_memory.m_place.forget();  // parted surfaces have contact again
                 part->m_softBody->activate();
             }
         }

@@ -192,7 +192,7 @@ bool btFemSoftBodySolver::setContactOffset(btSoftBody* body, btScalar metres, st
         record.m_asked.m_contactOffset = metres;
         if (!record.isFem()) return;
         record.fem().m_settings.m_contactOffset = metres;
-        record.fem().m_notedPlace.forget();  // what it touches is searched for again
+        record.fem().m_memory.m_place.forget();  // what it touches is searched for again
     };
     return attempt(why, set);
 }

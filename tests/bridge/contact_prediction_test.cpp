@@ -44,7 +44,7 @@ protected:
         origin.m_kind = kind;
         m_memory.remember({&contact, &origin, 1});
         m_memory.beginStep();
-        m_fem.m_notedPlace.note(m_fem.m_surface.position());
+        m_fem.m_memory.m_place.note(m_fem.m_surface.position());
     }
 
     bool isSteady()
@@ -139,7 +139,7 @@ TEST_F(ContactPredictionTest, BodyWithForgottenPlaceIsNotCarriedBySoftBodies)
 {
     restOnSoft(SoftPairKind::edges, m_weight);
     ASSERT_TRUE(isSteady());
-    m_fem.m_notedPlace.forget();
+    m_fem.m_memory.m_place.forget();
     EXPECT_FALSE(isSteady());
 }
 

@@ -193,7 +193,7 @@ TEST_F(SoftPairSearchTest, PairAboveTheContactLimitIsSearched)
 TEST_F(SoftPairSearchTest, PairWithForgottenPlaceIsSearched)
 {
     searched();
-    m_lower.m_fem.m_notedPlace.forget();
+    m_lower.m_fem.m_memory.m_place.forget();
     EXPECT_EQ(searched(), 1);
     EXPECT_EQ(searched(), 0);
 }

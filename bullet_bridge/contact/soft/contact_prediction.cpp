@@ -65,7 +65,7 @@ void ContactPrediction::sumImpulses(const std::vector<FemSoftBody*>& bodies, con
                 });
     m_byId.clear();
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (bodies[b]->m_notedPlace.isNoted()) m_byId.add(broadphaseId(*bodies[b]->m_softBody), b);
+        if (bodies[b]->m_memory.m_place.isNoted()) m_byId.add(broadphaseId(*bodies[b]->m_softBody), b);
     const auto add = [&](int id, const SurfacePoint& point, const Vec3& impulse)
     {
         const int b = m_byId.find(id);

@@ -40,8 +40,8 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       const int b = m_paired[k];
                       FemSoftBody& fem = *bodies[b];
                       fem.updateSkin();
-                      m_sides[b].m_isStill = fem.m_notedPlace.isStill(fem.surfacePosition(), fem.surfaceVelocity(),
-                                                                      step, kStillShare * m_sides[b].m_smallestEdge);
+                      m_sides[b].m_isStill = fem.m_memory.m_place.isStill(
+                          fem.surfacePosition(), fem.surfaceVelocity(), step, kStillShare * m_sides[b].m_smallestEdge);
                   });
     choosePairs();
     m_threads.run(paired,
@@ -182,7 +182,7 @@ void SoftPairSearch::remember(const ContactPoint* solved)
     for (const Pair& pair : m_pairs)
         if (pair.m_complete) m_complete.push_back(pair.m_ids);
     m_memory.remember({solved, m_origins.data(), m_origins.size()}, m_complete);
-    for (FemSoftBody* fem : m_moved) fem->m_notedPlace.note(fem->m_surface.position());
+    for (FemSoftBody* fem : m_moved) fem->m_memory.m_place.note(fem->m_surface.position());
 }
 
 int SoftPairSearch::searchedPairs() const

@@ -14,6 +14,7 @@ namespace bullet_fem
 class NotedPlace
 {
 public:
+    NotedPlace() = default;
     /// `vertices`, ascending, are indices of the values in all calls.
     explicit NotedPlace(const std::vector<int>& vertices) : m_vertices(vertices), m_positions(vertices.size()) {}
 
