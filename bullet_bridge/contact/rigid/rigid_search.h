@@ -80,7 +80,7 @@ private:
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     SortedIndex<const btCollisionShape*> m_giving, m_gaveLast;  // a program's own shapes that reported triangles in
                                                                 // this step and in the last
-    std::vector<Carried> m_carried;  // by object, ascending
+    std::vector<Carried> m_carried;                             // by object, ascending
     std::vector<ContactSearchReport> m_reports;
     SortedIndex<const void*> m_byAddress;                         // bodies
     std::vector<const btBroadphaseInterface*> m_broadphases;      // the bodies' broad phases, each once
