@@ -73,30 +73,22 @@ CollisionSkin::CollisionSkin(const TetMesh& mesh, const std::vector<SkinVertex>&
     for (const SkinVertex& vertex : vertices)
         surface.m_vertices.push_back(placeOf(cleaned(vertex), mesh.restPositions()));
     const RepairedSurface repaired = repairSurface(surface);
-    m_mended.m_duplicates = repaired.m_duplicates;
-    m_mended.m_turned = repaired.m_turned;
     m_rest.m_positions = std::move(surface.m_vertices);
     for (Triangle t : repaired.m_surface.m_triangles)
     {
         for (int& corner : t) corner = repaired.m_welded[corner];
-        if (hasArea(m_rest.m_positions, t))
-            m_rest.m_triangles.push_back(t);
-        else
-            ++m_mended.m_degenerate;
+        if (hasArea(m_rest.m_positions, t)) m_rest.m_triangles.push_back(t);
     }
     if (m_rest.m_triangles.empty())
         reject("none of the ", surface.m_triangles.size(), " faces of the surface that is to collide has an area");
-    takeVertices(vertices, repaired.m_welded);
+    takeVertices(vertices);
     turnOutward();
-    const SurfaceTopology topology(m_rest.m_triangles, static_cast<int>(m_vertices.size()));
-    countEdges(topology);
-    measure(topology, mesh);
+    measure(mesh);
 }
 
 // Keeps the vertices that triangles use, and renumbers them.
-void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const std::vector<int>& welded)
+void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices)
 {
-    for (std::size_t v = 0; v < welded.size(); ++v) m_mended.m_welded += welded[v] != static_cast<int>(v);
     std::vector<int> number(vertices.size(), -1);
     for (const Triangle& t : m_rest.m_triangles)
         for (int corner : t) number[corner] = 0;
@@ -106,7 +98,6 @@ void CollisionSkin::takeVertices(const std::vector<SkinVertex>& vertices, const 
         if (number[v] < 0) continue;
         number[v] = static_cast<int>(m_vertices.size());
         m_vertices.push_back(cleaned(vertices[v]));
-        m_given.push_back(static_cast<int>(v));
         positions.push_back(m_rest.m_positions[v]);
         const SkinVertex& vertex = m_vertices.back();
         for (int a = 0; a < 4; ++a)
@@ -144,29 +135,16 @@ void CollisionSkin::turnOutward()
     for (std::size_t piece = 0; piece < x.size(); ++piece)
         if (volume[piece] < 0) turned[piece] = std::fabs(winding.at(behind(x, m_rest.m_triangles[first[piece]]))) < 0.5;
     for (Triangle& t : m_rest.m_triangles)
-    {
-        if (!turned[pieces.root(t[0])]) continue;
-        std::swap(t[1], t[2]);
-        ++m_mended.m_turned;
-    }
-}
-
-void CollisionSkin::countEdges(const SurfaceTopology& topology)
-{
-    for (int edge = 0; edge < topology.edgeCount(); ++edge)
-    {
-        const auto [first, last] = topology.trianglesOf(edge);
-        m_mended.m_openEdges += first == last;
-        m_mended.m_crossings += first != last && !topology.isManifold(edge);
-    }
+        if (turned[pieces.root(t[0])]) std::swap(t[1], t[2]);
 }
 
 // Bands and margins are relative to the tetrahedra's mean edge, scaled down if the skin is finer than the mesh's
 // boundary.
-void CollisionSkin::measure(const SurfaceTopology& topology, const TetMesh& mesh)
+void CollisionSkin::measure(const TetMesh& mesh)
 {
+    const SurfaceTopology own(m_rest.m_triangles, static_cast<int>(m_vertices.size()));
     const SurfaceTopology boundary(mesh.surface(), mesh.nodeCount());
-    const double finer = meanEdge(topology, m_rest.m_positions) / meanEdge(boundary, mesh.restPositions());
+    const double finer = meanEdge(own, m_rest.m_positions) / meanEdge(boundary, mesh.restPositions());
     m_rest.m_meanEdge = mesh.meanEdgeLength() * std::min(1.0, finer);
     m_rest.m_size = std::cbrt(mesh.volume());
 }

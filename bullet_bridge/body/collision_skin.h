@@ -26,17 +26,6 @@ struct SkinVertex
 class CollisionSkin
 {
 public:
-    /// Counts of the repairs.
-    struct Mended
-    {
-        int m_welded = 0;      ///< vertices merged with another at an equal position
-        int m_degenerate = 0;  ///< removed triangles without area
-        int m_duplicates = 0;  ///< removed triangles with the vertices of another
-        int m_turned = 0;      ///< reoriented triangles, those of inverted components included
-        int m_openEdges = 0;   ///< edges of one triangle
-        int m_crossings = 0;   ///< edges of more than two triangles
-    };
-
     /// Builds the surface. Nodes and corners must be in range, weights finite. Throws std::invalid_argument if no
     /// triangle has an area at rest.
     CollisionSkin(const TetMesh& mesh, const std::vector<SkinVertex>& vertices, std::vector<Triangle> triangles);
@@ -44,14 +33,8 @@ public:
     /// The rest shape, with the vertices that triangles use, in their given order.
     const RestSurface& rest() const { return m_rest; }
 
-    /// Counts of the repairs by the constructor.
-    const Mended& mended() const { return m_mended; }
-
     /// The nodes that vertices depend on, ascending.
     const std::vector<int>& nodes() const { return m_nodes; }
-
-    /// The index in the given vertices of a vertex of rest().
-    int given(int vertex) const { return m_given[vertex]; }
 
     /// Interpolates nodal values to the vertices. Allocates if the size of `vertexValues` changes.
     void follow(const std::vector<Vec3>& nodeValues, std::vector<Vec3>& vertexValues) const;
@@ -61,15 +44,13 @@ public:
     SurfacePoint pointOf(int body, const Triangle& vertices, const std::array<double, 3>& weights) const;
 
 private:
-    void takeVertices(const std::vector<SkinVertex>& vertices, const std::vector<int>& welded);
+    void takeVertices(const std::vector<SkinVertex>& vertices);
     void turnOutward();
-    void countEdges(const SurfaceTopology& topology);
-    void measure(const SurfaceTopology& topology, const TetMesh& mesh);
+    void measure(const TetMesh& mesh);
 
     RestSurface m_rest;
     std::vector<SkinVertex> m_vertices;
-    std::vector<int> m_nodes, m_given;
-    Mended m_mended;
+    std::vector<int> m_nodes;
 };
 
 /// The skin from m_renderNodes and m_renderFaces. Throws std::invalid_argument with the vertex or face, the value and

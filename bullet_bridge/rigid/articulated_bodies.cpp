@@ -10,6 +10,7 @@
 
 namespace bullet_fem
 {
+
 void ArticulatedBodies::clear()
 {
     m_trees.clear();
@@ -57,7 +58,7 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
         const std::vector<double>& acceleration = m_dynamics.acceleration();
         for (int k = body.isBaseStaticOrKinematic() ? kBaseCoordinates : 0; k < tree.m_coordinates; ++k)
             m_freeVelocity[tree.m_first + k] += step * acceleration[k];
-        m_history.addSupport(body, step, acceleration, &m_freeVelocity[tree.m_first]);
+        m_history.addSupport(body, step, acceleration, &m_velocity[tree.m_first], &m_freeVelocity[tree.m_first]);
     }
     return static_cast<int>(m_trees.size()) - 1;
 }

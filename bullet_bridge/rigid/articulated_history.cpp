@@ -40,13 +40,12 @@ void ArticulatedHistory::reserve(const btMultiBody& body, std::size_t bodies, st
 }
 
 void ArticulatedHistory::addSupport(const btMultiBody& body, double step, const std::vector<double>& acceleration,
-                                    double* velocity)
+                                    const double* velocity, double* freeVelocity)
 {
     const auto before =
         std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_body == &body; });
     if (before == m_before.end()) return;
     const double* noted = &m_beforeVelocity[before->m_first];
-    const btScalar* now = body.getVelocityVector();
     const Memory& memory = memoryOf(body);
     const auto needed = [&](int k) { return -(step * acceleration[k] + memory.m_given[k]); };
     const auto support = [&](int first, int count)
@@ -55,12 +54,12 @@ void ArticulatedHistory::addSupport(const btMultiBody& body, double step, const 
         for (int k = first; k < first + count; ++k)
         {
             const double byForces = m_forcesGiven ? 0 : step * acceleration[k];
-            done += (double(now[k]) - noted[k] - byForces) * needed(k);
+            done += (velocity[k] - noted[k] - byForces) * needed(k);
             whole += needed(k) * needed(k);
         }
         if (!(whole > 0)) return;
         const double share = std::clamp(done / whole, 0.0, 1.0);
-        for (int k = first; k < first + count; ++k) velocity[k] += share * needed(k);
+        for (int k = first; k < first + count; ++k) freeVelocity[k] += share * needed(k);
     };
     support(0, 3);
     support(3, 3);

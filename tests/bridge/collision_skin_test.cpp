@@ -12,7 +12,7 @@ namespace bullet_fem
 namespace
 {
 
-/// Skin vertices at the boundary nodes of a mesh, each embedded in an adjacent tetrahedron.
+/// The boundary of a mesh as a surface that follows it: every node in one of its tetrahedra.
 std::vector<SkinVertex> verticesOf(const TetMesh& mesh)
 {
     std::vector<SkinVertex> vertices(mesh.nodeCount());
@@ -25,11 +25,31 @@ std::vector<SkinVertex> verticesOf(const TetMesh& mesh)
     return vertices;
 }
 
+int openEdgesOf(const CollisionSkin& skin)
+{
+    const SurfaceTopology topology(skin.rest().m_triangles, static_cast<int>(skin.rest().m_positions.size()));
+    int count = 0;
+    for (int edge = 0; edge < topology.edgeCount(); ++edge)
+        count += topology.trianglesOf(edge)[0] == topology.trianglesOf(edge)[1];
+    return count;
+}
+
+/// Volume between the triangles and a point; negative if they face inward.
+double volumeOf(const CollisionSkin& skin, const Vec3& from)
+{
+    double volume = 0;
+    const std::vector<Vec3>& x = skin.rest().m_positions;
+    for (const Triangle& t : skin.rest().m_triangles)
+        volume += dot(x[t[0]] - from, cross(x[t[1]] - from, x[t[2]] - from)) / 6;
+    return volume;
+}
+
 class CollisionSkinTest : public testing::Test
 {
 protected:
     const TetMesh m_mesh = makeBox({1, 1, 1}, {2, 2, 2});
     const std::vector<SkinVertex> m_vertices = verticesOf(m_mesh);
+    const Vec3 m_middle = {0.5, 0.5, 0.5};
 };
 
 TEST_F(CollisionSkinTest, BoundarySkinEqualsTheMeshSurface)
@@ -39,29 +59,26 @@ TEST_F(CollisionSkinTest, BoundarySkinEqualsTheMeshSurface)
     EXPECT_EQ(skin.rest().m_nearestNode, m_mesh.surfaceNodes());
     EXPECT_EQ(skin.rest().m_triangles.size(), m_mesh.surface().size());
     EXPECT_EQ(skin.rest().m_meanEdge, m_mesh.meanEdgeLength());
-    EXPECT_EQ(skin.mended().m_openEdges, 0);
-    EXPECT_EQ(skin.mended().m_turned, 0);
+    EXPECT_EQ(openEdgesOf(skin), 0);
+    EXPECT_NEAR(volumeOf(skin, m_middle), 1, 1e-12);
 }
 
-TEST_F(CollisionSkinTest, CountsRepairedDefects)
+TEST_F(CollisionSkinTest, RepairsDefects)
 {
     std::vector<SkinVertex> vertices = m_vertices;
-    vertices.push_back(vertices[m_mesh.surface()[0][0]]);  // a duplicate vertex
+    vertices.push_back(vertices[m_mesh.surface()[0][0]]);  // the same place once more
     std::vector<Triangle> triangles = m_mesh.surface();
     const int twin = m_mesh.nodeCount();
     triangles[0][0] = twin;
-    std::swap(triangles[5][0], triangles[5][1]);                               // reversed
+    std::swap(triangles[5][0], triangles[5][1]);                               // turned over
     triangles.push_back(triangles[7]);                                         // a duplicate
     triangles.push_back({triangles[9][0], triangles[9][0], triangles[9][1]});  // without area
     triangles.erase(triangles.begin() + 20);                                   // a hole
     const CollisionSkin skin(m_mesh, vertices, triangles);
-    EXPECT_EQ(skin.mended().m_welded, 1);
-    EXPECT_EQ(skin.mended().m_turned, 1);
-    EXPECT_EQ(skin.mended().m_duplicates, 1);
-    EXPECT_EQ(skin.mended().m_degenerate, 1);
-    EXPECT_EQ(skin.mended().m_openEdges, 3);
-    EXPECT_EQ(skin.mended().m_crossings, 0);
+    EXPECT_EQ(skin.rest().m_positions.size(), m_mesh.surfaceNodes().size());
     EXPECT_EQ(skin.rest().m_triangles.size(), m_mesh.surface().size() - 1);
+    EXPECT_EQ(openEdgesOf(skin), 3);
+    EXPECT_NEAR(volumeOf(skin, m_middle), 1 - 1.0 / m_mesh.surface().size(), 1e-12);  // all faces are alike
 }
 
 TEST_F(CollisionSkinTest, IsTurnedOutwardUnlessItIsTheWallOfAHollow)
@@ -69,7 +86,7 @@ TEST_F(CollisionSkinTest, IsTurnedOutwardUnlessItIsTheWallOfAHollow)
     std::vector<SkinVertex> vertices = m_vertices;
     std::vector<Triangle> triangles = m_mesh.surface();
     for (Triangle& t : triangles) std::swap(t[1], t[2]);
-    EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, static_cast<int>(triangles.size()));
+    EXPECT_NEAR(volumeOf(CollisionSkin(m_mesh, vertices, triangles), m_middle), 1, 1e-12);
 
     triangles = m_mesh.surface();
     const Tet& holder = m_mesh.tets()[3];  // a little tetrahedron in one of the elements, facing inward
@@ -81,9 +98,10 @@ TEST_F(CollisionSkinTest, IsTurnedOutwardUnlessItIsTheWallOfAHollow)
     }
     for (const Triangle& t : {Triangle{0, 1, 2}, Triangle{0, 3, 1}, Triangle{1, 3, 2}, Triangle{0, 2, 3}})
         triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, 0);
+    EXPECT_LT(volumeOf(CollisionSkin(m_mesh, vertices, triangles), m_middle), 1 - 1e-6);
     for (std::size_t k = triangles.size() - 4; k < triangles.size(); ++k) std::swap(triangles[k][1], triangles[k][2]);
-    EXPECT_EQ(CollisionSkin(m_mesh, vertices, triangles).mended().m_turned, 0);  // nested: either is accepted
+    EXPECT_GT(volumeOf(CollisionSkin(m_mesh, vertices, triangles), m_middle),
+              1 + 1e-6);  // within another, either is left
 }
 
 TEST_F(CollisionSkinTest, PointsAreSumsOfNodesEachOnce)
@@ -113,7 +131,7 @@ TEST_F(CollisionSkinTest, SurfaceWithoutAreaIsRejected)
     EXPECT_THROW(CollisionSkin(m_mesh, m_vertices, {{0, 1, 0}, {2, 2, 2}}), std::invalid_argument);
 }
 
-/// Contacts of one object along x, 1 cm apart; thinning uses cells of 10 cm.
+/// Contacts of one object along x, 1 cm apart, in cells of 10 cm.
 class Thinning : public testing::Test
 {
 protected:
