@@ -106,7 +106,7 @@ int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld
         tie.m_id = weld.m_id;
         tie.m_node = faces.m_nodes[k].first;
         tie.m_other = b.m_softBody;
-        tie.m_otherMark = b.m_mark;
+        tie.m_otherMark = b.m_setUp.m_mark;
         tie.m_otherNodes.fill(faces.m_nodes[k].second);
         tie.m_area = faces.m_area[k];
         tie.m_compliance = compliance / tie.m_area;
@@ -128,7 +128,7 @@ int WeldClusters::indexOf(const NodeAttachment& tie) const
 {
     const auto at = std::lower_bound(m_byAddress.begin(), m_byAddress.end(), std::make_pair(tie.m_other, 0));
     if (at == m_byAddress.end() || at->first != tie.m_other) return -1;
-    return m_bodies[at->second]->m_mark == tie.m_otherMark ? at->second : -1;
+    return m_bodies[at->second]->m_setUp.m_mark == tie.m_otherMark ? at->second : -1;
 }
 
 void WeldClusters::find(const std::vector<FemSoftBody*>& bodies, const std::vector<FemSoftBody*>& others)
