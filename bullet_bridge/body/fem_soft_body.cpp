@@ -31,8 +31,7 @@ btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
                          std::shared_ptr<ComplianceCache> compliance)
     : m_softBody(&softBody),
-      m_mark(markBody(softBody)),
-      m_setUp{&softBody.m_nodes[0], TopologyMarks(softBody), vec3(softBody.m_nodes[0].m_x), {}},
+      m_setUp{markBody(softBody), &softBody.m_nodes[0], TopologyMarks(softBody), vec3(softBody.m_nodes[0].m_x), {}},
       m_body(std::move(model)),
       m_compliance(std::move(compliance)),
       m_surface(boundaryOf(m_body.m_model->mesh()))

@@ -118,6 +118,7 @@ struct ContactMemory
 /// Found at set-up in the btSoftBody, for comparison with its present state.
 struct SetUpState
 {
+    std::uint64_t m_mark;                 ///< mark of the btSoftBody: see body_mark.h
     const btSoftBody::Node* m_firstNode;  ///< start of the array of nodes at the last check
     TopologyMarks m_topology;
     Vec3 m_restOrigin;  ///< position of node 0 of the rest shape, aligned with the body (RestMesh) [m]
@@ -179,7 +180,6 @@ struct FemSoftBody
     Vec3 gravity() const;
 
     btSoftBody* m_softBody;
-    std::uint64_t m_mark;  ///< mark of the btSoftBody: see body_mark.h
     SetUpState m_setUp;
     Body m_body;
     std::shared_ptr<ComplianceCache> m_compliance;

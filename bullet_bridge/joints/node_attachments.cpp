@@ -18,7 +18,7 @@ constexpr double kErp = 0.5;  // share of the error that a step corrects (Baumga
 int indexOf(const NodeAttachment& attachment, const std::vector<FemSoftBody*>& bodies)
 {
     const auto isIt = [&](const FemSoftBody* fem)
-    { return fem->m_softBody == attachment.m_other && fem->m_mark == attachment.m_otherMark; };
+    { return fem->m_softBody == attachment.m_other && fem->m_setUp.m_mark == attachment.m_otherMark; };
     const auto found = std::find_if(bodies.begin(), bodies.end(), isIt);
     return found != bodies.end() ? static_cast<int>(found - bodies.begin()) : -1;
 }

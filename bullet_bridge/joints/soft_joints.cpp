@@ -60,7 +60,7 @@ bool reachesInto(const FemSoftBody& fem, const std::vector<FemSoftBody*>& others
     for (const FemSoftBody* other : others)
     {
         for (const NodeAttachment& attachment : fem.m_joints.m_attachments)
-            if (attachment.m_other == other->m_softBody && attachment.m_otherMark == other->m_mark) return true;
+            if (attachment.m_other == other->m_softBody && attachment.m_otherMark == other->m_setUp.m_mark) return true;
         for (const HiddenJoint& hidden : fem.m_joints.m_hidden)
             if (hidden.m_bodies[1].m_soft &&
                 other->m_softBody->m_clusters.findLinearSearch2(hidden.m_bodies[1].m_soft) >= 0)

@@ -106,7 +106,7 @@ int addWeld(FemSoftBody& a, const FemSoftBody& b, const CommonFaces& faces, Weld
         tie.m_id = weld.m_id;
         tie.m_node = faces.m_nodes[k].first;
         tie.m_other = b.m_softBody;
-        tie.m_otherMark = b.m_mark;
+        tie.m_otherMark = b.m_setUp.m_mark;
         tie.m_otherNodes.fill(faces.m_nodes[k].second);
         tie.m_area = faces.m_area[k];
         tie.m_compliance = compliance / tie.m_area;
@@ -127,7 +127,7 @@ int WeldClusters::root(int body) const
 int WeldClusters::indexOf(const NodeAttachment& tie) const
 {
     const int b = m_byAddress.find(tie.m_other);
-    return b >= 0 && m_bodies[b]->m_mark == tie.m_otherMark ? b : -1;
+    return b >= 0 && m_bodies[b]->m_setUp.m_mark == tie.m_otherMark ? b : -1;
 }
 
 void WeldClusters::find(const std::vector<FemSoftBody*>& bodies, const std::vector<FemSoftBody*>& others)

@@ -182,7 +182,7 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
         if (!other) continue;
         joints.m_attachments.push_back(a.m_attachment);
         joints.m_attachments.back().m_other = other->m_softBody;
-        joints.m_attachments.back().m_otherMark = other->m_mark;
+        joints.m_attachments.back().m_otherMark = other->m_setUp.m_mark;
     }
     joints.m_welds.clear();
     for (const WeldSnapshot& w : s.m_welds)
@@ -223,7 +223,7 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
     for (const NodeAttachment& attachment : fem.m_joints.m_attachments)
     {
         const FemSoftBody* other = world.bodyAt(attachment.m_other);
-        const bool here = other && other->m_mark == attachment.m_otherMark;
+        const bool here = other && other->m_setUp.m_mark == attachment.m_otherMark;
         s.m_attachments.push_back({attachment, here ? world.idOf(attachment.m_other) : WorldIds::kGone});
     }
     for (const Weld& weld : fem.m_joints.m_welds) s.m_welds.push_back({weld, world.idOf(weld.m_other)});

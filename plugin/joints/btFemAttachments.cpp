@@ -114,7 +114,7 @@ int attachNode(FemSoftBody& body, int node, const FemSoftBody& other, const std:
     attachment.m_id = ++body.m_joints.m_lastId;
     attachment.m_node = node;
     attachment.m_other = other.m_softBody;
-    attachment.m_otherMark = other.m_mark;
+    attachment.m_otherMark = other.m_setUp.m_mark;
     attachment.m_otherNodes = otherNodes;
     attachment.m_weights = weights;
     body.m_joints.m_attachments.push_back(attachment);

@@ -69,14 +69,15 @@ void btFemBodyRegistry::forget(const btSoftBody* body)
 
 bool btFemBodyRegistry::isAsBuilt(const btFemBodyRecord& record)
 {
-    return !record.isFem() || (hasMark(*record.m_softBody, record.fem().m_mark) && topologyAsSetUp(record.fem()));
+    return !record.isFem() ||
+           (hasMark(*record.m_softBody, record.fem().m_setUp.m_mark) && topologyAsSetUp(record.fem()));
 }
 
 // True if another body is now at the address of a known one.
 bool btFemBodyRegistry::isAnother(std::size_t known, const btSoftBody& body) const
 {
     const btFemBodyRecord& record = *m_records[known];
-    return record.isFem() && !hasMark(body, record.fem().m_mark);
+    return record.isFem() && !hasMark(body, record.fem().m_setUp.m_mark);
 }
 
 // Forgets bodies whose address was reused. The new body gets a record at the end, as at any other address: the order of

@@ -301,7 +301,7 @@ protected:
         attachment.m_id = ++m_cube.m_joints.m_lastId;
         attachment.m_node = node;
         attachment.m_other = m_other.m_softBody;
-        attachment.m_otherMark = m_other.m_mark;
+        attachment.m_otherMark = m_other.m_setUp.m_mark;
         attachment.m_otherNodes = nodes;
         attachment.m_weights = weights;
         m_cube.m_joints.m_attachments.push_back(attachment);

@@ -10,12 +10,11 @@
 
 namespace bullet_fem
 {
-
 namespace
 {
 
 template <class Object>
-void record(const Object& object, std::mutex& mutex, std::vector<const Object*>& overlapping)
+void noteOverlap(const Object& object, std::mutex& mutex, std::vector<const Object*>& overlapping)
 {
     const std::lock_guard<std::mutex> lock(mutex);
     if (std::find(overlapping.begin(), overlapping.end(), &object) == overlapping.end()) overlapping.push_back(&object);
@@ -25,12 +24,12 @@ void record(const Object& object, std::mutex& mutex, std::vector<const Object*>&
 
 void recordOverlap(FemSoftBody& fem, const btCollisionObject& object)
 {
-    record(object, fem.m_overlaps.m_mutex, fem.m_overlaps.m_rigid);
+    noteOverlap(object, fem.m_overlaps.m_mutex, fem.m_overlaps.m_rigid);
 }
 
 void recordOverlap(FemSoftBody& fem, const btSoftBody& other)
 {
-    record(other, fem.m_overlaps.m_mutex, fem.m_overlaps.m_soft);
+    noteOverlap(other, fem.m_overlaps.m_mutex, fem.m_overlaps.m_soft);
 }
 
 ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around)
