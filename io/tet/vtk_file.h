@@ -41,8 +41,8 @@ std::vector<std::int64_t> readVtkIntegers(VtkFile& file, NumberType type, std::u
 
 /// METADATA, which ends with an empty line or the file.
 void skipVtkMetadata(MeshScanner& scanner);
-/// FIELD, whose arrays are not needed.
-void skipVtkField(MeshScanner& scanner);
+/// FIELD: keeps the cells' regions once CELL_DATA was read.
+void readVtkField(VtkFile& file);
 /// Reads the cells' regions in the SCALARS and FIELD arrays of points and cells, up to the first thing of another kind.
 void findVtkRegions(VtkFile& file);
 
