@@ -20,8 +20,8 @@
         kernel(work, range);                                   \
     }
 
-/// Outside HWY_NAMESPACE: defines a function as the kernel for the processor's widest vectors, called with what
-/// follows.
+/// Outside HWY_NAMESPACE: defines a function as the kernel for the processor's widest vectors; the last arguments are
+/// those of the call.
 #define BULLETFEM_EXPORT(kernel, declaration, ...)        \
     HWY_EXPORT(kernel);                                   \
     declaration                                           \

@@ -79,7 +79,7 @@ struct ElementStrains
     const ElementBlocks<Real>* m_elements;
     const PaddedVec3* m_x;        ///< per node [m]
     Quaternion* m_rotation;       ///< in: initial guess, out: solution; kLanes a block
-    StrainBlock<Real>* m_strain;  ///< out, one a block
+    StrainBlock<Real>* m_strain;  ///< out, one per block
 };
 
 /// Runs over a range of blocks, on the widest vectors that the processor has. Bitwise independent of the division into

@@ -20,7 +20,10 @@ namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-/// out += (rows of M) x, one right-hand side.
+
+/// out += M x, one right-hand side. An entry serves so many directions, of which `out` has 16 rows in turn: with three
+/// arithmetic limits the speed, with one memory.
+template <int Directions>
 struct Multiply
 {
     const float* m_x;
@@ -31,22 +34,30 @@ struct Multiply
     HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
     {
         const D d;
-        V x[C];
+        V x[Directions * C], sum[Directions];
         HWY_UNROLL(12)
-        for (int c = 0; c < C; ++c) x[c] = hn::Set(d, m_x[firstColumn + c]);
+        for (int k = 0; k < Directions * C; ++k) x[k] = hn::Set(d, m_x[Directions * firstColumn + k]);
         for (int b = 0; b < m_blocks; ++b, values += C * kPanelLanes)
             for (int h = 0; h < kPanelLanes; h += kN)
             {
-                float* out = m_out + b * kPanelLanes + h;
-                V sum = hn::Load(d, out);
+                float* out = m_out + b * Directions * kPanelLanes + h;
+                HWY_UNROLL(3)
+                for (int i = 0; i < Directions; ++i) sum[i] = hn::Load(d, out + i * kPanelLanes);
                 HWY_UNROLL(12)
-                for (int c = 0; c < C; ++c) sum = hn::MulAdd(hn::Load(d, values + c * kPanelLanes + h), x[c], sum);
-                hn::Store(sum, d, out);
+                for (int c = 0; c < C; ++c)
+                {
+                    const V m = hn::Load(d, values + c * kPanelLanes + h);
+                    HWY_UNROLL(3)
+                    for (int i = 0; i < Directions; ++i) sum[i] = hn::MulAdd(m, x[Directions * c + i], sum[i]);
+                }
+                HWY_UNROLL(3)
+                for (int i = 0; i < Directions; ++i) hn::Store(sum[i], d, out + i * kPanelLanes);
             }
     }
 };
 
 /// out_c = (column c of the panel) . rows, one right-hand side.
+template <int Directions>
 struct MultiplyTransposed
 {
     const float* m_rows;
@@ -57,18 +68,26 @@ struct MultiplyTransposed
     HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
     {
         const D d;
-        V sum[C];
+        V sum[Directions * C], row[Directions];
         HWY_UNROLL(12)
-        for (int c = 0; c < C; ++c) sum[c] = hn::Zero(d);
+        for (int k = 0; k < Directions * C; ++k) sum[k] = hn::Zero(d);
         for (int b = 0; b < m_blocks; ++b, values += C * kPanelLanes)
             for (int h = 0; h < kPanelLanes; h += kN)
             {
-                const V row = hn::Load(d, m_rows + b * kPanelLanes + h);
+                const float* rows = m_rows + b * Directions * kPanelLanes + h;
+                HWY_UNROLL(3)
+                for (int i = 0; i < Directions; ++i) row[i] = hn::Load(d, rows + i * kPanelLanes);
                 HWY_UNROLL(12)
-                for (int c = 0; c < C; ++c) sum[c] = hn::MulAdd(hn::Load(d, values + c * kPanelLanes + h), row, sum[c]);
+                for (int c = 0; c < C; ++c)
+                {
+                    const V m = hn::Load(d, values + c * kPanelLanes + h);
+                    HWY_UNROLL(3)
+                    for (int i = 0; i < Directions; ++i)
+                        sum[Directions * c + i] = hn::MulAdd(m, row[i], sum[Directions * c + i]);
+                }
             }
         HWY_UNROLL(12)
-        for (int c = 0; c < C; ++c) m_out[firstColumn + c] = sumOfLanes(sum[c]);
+        for (int k = 0; k < Directions * C; ++k) m_out[Directions * firstColumn + k] = sumOfLanes(sum[k]);
     }
 };
 
@@ -77,7 +96,7 @@ void ForwardPanel(const Panel& panel, float* y, float* scratch)
     const D d;
     const int blocks = panel.blocksBelow();
     for (int i = 0; i < blocks * kPanelLanes; i += kN) hn::Store(hn::Zero(d), d, scratch + i);
-    forEachChunk<3>(panel, Multiply{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
+    forEachChunk<3>(panel, Multiply<1>{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
     for (int r = 0; r < panel.m_rowsBelow; r += 3)
     {
         float* yr = y + 3 * static_cast<std::size_t>(panel.m_row[r / 3]);
@@ -96,7 +115,7 @@ void BackwardPanel(const Panel& panel, float* y, float* scratch)
     }
     rows = std::copy(own, own + panel.m_columns, rows);
     std::fill(rows, scratch + panel.blocks() * kPanelLanes, 0.f);
-    forEachChunk<3>(panel, MultiplyTransposed{scratch, own, panel.blocks()});
+    forEachChunk<3>(panel, MultiplyTransposed<1>{scratch, own, panel.blocks()});
 }
 
 void ForwardPanelLanes(const Panel& panel, float* y, float*)
@@ -109,77 +128,6 @@ void BackwardPanelLanes(const Panel& panel, float* y, float* scratch)
     backwardLanes<3>(panel, y, scratch);
 }
 
-// One entry of an isotropic panel serves three directions, so these kernels are limited by arithmetic where those above
-// are limited by memory.
-
-/// out += M x, one right-hand side; out has 16 rows of each direction in turn.
-struct IsotropicMultiply
-{
-    const float* m_x;
-    float* m_out;
-    int m_blocks;
-
-    template <int C>
-    HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
-    {
-        const D d;
-        V x[3 * C];
-        HWY_UNROLL(12)
-        for (int k = 0; k < 3 * C; ++k) x[k] = hn::Set(d, m_x[3 * firstColumn + k]);
-        for (int b = 0; b < m_blocks; ++b, values += C * kPanelLanes)
-            for (int h = 0; h < kPanelLanes; h += kN)
-            {
-                float* out = m_out + b * kNodeLanes + h;
-                V s0 = hn::Load(d, out), s1 = hn::Load(d, out + kPanelLanes), s2 = hn::Load(d, out + 2 * kPanelLanes);
-                HWY_UNROLL(4)
-                for (int c = 0; c < C; ++c)
-                {
-                    const V m = hn::Load(d, values + c * kPanelLanes + h);
-                    s0 = hn::MulAdd(m, x[3 * c], s0);
-                    s1 = hn::MulAdd(m, x[3 * c + 1], s1);
-                    s2 = hn::MulAdd(m, x[3 * c + 2], s2);
-                }
-                hn::Store(s0, d, out);
-                hn::Store(s1, d, out + kPanelLanes);
-                hn::Store(s2, d, out + 2 * kPanelLanes);
-            }
-    }
-};
-
-/// out_c = (column c of the panel) . rows, one right-hand side.
-struct IsotropicMultiplyTransposed
-{
-    const float* m_rows;
-    float* m_out;
-    int m_blocks;
-
-    template <int C>
-    HWY_INLINE void operator()(std::integral_constant<int, C>, int firstColumn, const float* values) const
-    {
-        const D d;
-        V sum[3 * C];
-        HWY_UNROLL(12)
-        for (int k = 0; k < 3 * C; ++k) sum[k] = hn::Zero(d);
-        for (int b = 0; b < m_blocks; ++b, values += C * kPanelLanes)
-            for (int h = 0; h < kPanelLanes; h += kN)
-            {
-                const float* rows = m_rows + b * kNodeLanes + h;
-                const V r0 = hn::Load(d, rows), r1 = hn::Load(d, rows + kPanelLanes),
-                        r2 = hn::Load(d, rows + 2 * kPanelLanes);
-                HWY_UNROLL(4)
-                for (int c = 0; c < C; ++c)
-                {
-                    const V m = hn::Load(d, values + c * kPanelLanes + h);
-                    sum[3 * c] = hn::MulAdd(m, r0, sum[3 * c]);
-                    sum[3 * c + 1] = hn::MulAdd(m, r1, sum[3 * c + 1]);
-                    sum[3 * c + 2] = hn::MulAdd(m, r2, sum[3 * c + 2]);
-                }
-            }
-        HWY_UNROLL(12)
-        for (int k = 0; k < 3 * C; ++k) m_out[3 * firstColumn + k] = sumOfLanes(sum[k]);
-    }
-};
-
 /// Start of row r of one right-hand side in the scratch; its directions are kPanelLanes apart.
 HWY_INLINE std::size_t place(int r)
 {
@@ -191,7 +139,7 @@ void ForwardIsotropic(const Panel& panel, float* y, float* scratch)
     const D d;
     const int blocks = panel.blocksBelow();
     for (int i = 0; i < blocks * kNodeLanes; i += kN) hn::Store(hn::Zero(d), d, scratch + i);
-    forEachChunk<1>(panel, IsotropicMultiply{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
+    forEachChunk<1>(panel, Multiply<3>{y + 3 * static_cast<std::size_t>(panel.m_firstNode), scratch, blocks});
     for (int r = 0; r < panel.m_rowsBelow; ++r)
     {
         float* yr = y + 3 * static_cast<std::size_t>(panel.m_row[r]);
@@ -217,7 +165,7 @@ void BackwardIsotropic(const Panel& panel, float* y, float* scratch)
         float* row = scratch + place(panel.m_rowsBelow + c);
         for (int i = 0; i < 3; ++i) row[i * kPanelLanes] = own[3 * c + i];
     }
-    forEachChunk<1>(panel, IsotropicMultiplyTransposed{scratch, own, panel.blocks()});
+    forEachChunk<1>(panel, MultiplyTransposed<3>{scratch, own, panel.blocks()});
 }
 
 void ForwardIsotropicLanes(const Panel& panel, float* y, float*)

@@ -49,7 +49,7 @@ constexpr int kIsotropicColumns = 4;  ///< columns of a chunk of an isotropic pa
 
 /// The steps of a solve with an isotropic panel, which has one row and one column a node, applied to each of the node's
 /// three directions: Panel's m_columns and m_rowsBelow count nodes, and a chunk has kIsotropicColumns columns. y has 3
-/// entries a node, or 3 x 16 interleaved. `scratch` has 48 blocks() entries (times 16), aligned to 64 bytes. Uses the
+/// entries per node, or 3 x 16 interleaved. `scratch` has 48 blocks() entries (times 16), aligned to 64 bytes. Uses the
 /// widest vectors that the processor has.
 void forwardIsotropic(const Panel& panel, float* y, float* scratch);
 void backwardIsotropic(const Panel& panel, float* y, float* scratch);

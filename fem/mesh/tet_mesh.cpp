@@ -115,7 +115,7 @@ Triangle sideOf(const Tet& tet, int a)
     return {tet[kFaces[a][0]], tet[kFaces[a][1]], tet[kFaces[a][2]]};
 }
 
-/// Rejects elements with the same four nodes, in any order; returns if there are none.
+/// Rejects elements with four equal nodes, in any order; returns if there are none.
 void refuseRepeatedElements(const std::vector<Tet>& tets)
 {
     std::vector<std::pair<Tet, int>> sorted;  // nodes, ascending, and the element

@@ -17,7 +17,7 @@ constexpr const char* kElementType = "an element type";
 struct GmshCell
 {
     CellKind kind;
-    int nodes;         ///< of each element; 0 if refused
+    int nodes;         ///< nodes of an element; 0 if refused
     std::string name;  ///< with its article, if refused
 };
 
@@ -64,7 +64,7 @@ int nodesOf(int type, const Counted (&cells)[Size])
     return 0;
 }
 
-/// The type of a number in the element sections, by Gmsh's list (GmshDefines.h).
+/// The element type of a number in Gmsh's list (GmshDefines.h).
 GmshCell gmshCell(int type)
 {
     if (type == 4) return {CellKind::tet, 4, {}};
@@ -78,7 +78,7 @@ GmshCell gmshCell(int type)
     return {CellKind::refused, 0, message("Gmsh's element type ", type)};
 }
 
-/// The type of a number; fails on cells that are not read.
+/// The element type of a number; fails on refused cells.
 GmshCell cellOf(int type, const MeshScanner& scanner)
 {
     const GmshCell cell = gmshCell(type);
@@ -152,7 +152,7 @@ void readBinaryElements2(GmshFile& file, std::uint64_t count)
     }
 }
 
-/// The four numbers that open a section of version 4.1, of which the last two are the least and the largest tag.
+/// The four numbers at the beginning of a section of version 4.1; the last two are the minimum and the maximum tag.
 struct BlockHeader
 {
     std::uint64_t blocks, items;
@@ -168,7 +168,7 @@ BlockHeader readBlockHeader(GmshFile& file, const char* what)
     return header;
 }
 
-/// The number of items in a block, of those that the header declares and that are left.
+/// The number of items in a block, at most those that remain of the declared total.
 std::uint64_t readBlockCount(GmshFile& file, std::uint64_t& left, const char* what)
 {
     const auto count = file.scanner.get<std::uint64_t>(what, file.sizeBytes);

@@ -18,17 +18,17 @@ namespace
 
 constexpr std::uint64_t kMaxInflation = 1032;  // of deflate, bytes from a byte
 
-/// Bytes that stand as they are or in base64, taken from the front. Errors are std::runtime_error.
+/// A sequence of raw or base64 bytes, consumed from the front. Errors are std::runtime_error.
 class EncodedBytes
 {
 public:
     EncodedBytes(std::string_view text, bool base64) : m_rest(text), m_base64(base64) {}
 
-    /// The next bytes; throws if there are fewer. Base64 may be padded in its midst, as behind a header that was
-    /// encoded by itself.
+    /// The next bytes; throws if there are fewer. Base64 may contain padding in its middle, as after a separately
+    /// encoded header.
     std::string take(std::size_t count);
 
-    /// What can be taken, at most.
+    /// Upper bound of the remaining bytes.
     std::size_t most() const { return m_pending.size() + (m_base64 ? m_rest.size() / 4 * 3 : m_rest.size()); }
 
 private:
@@ -36,7 +36,7 @@ private:
 
     std::string_view m_rest;
     bool m_base64;
-    std::string m_pending;  // decoded, and not yet taken
+    std::string m_pending;  // decoded, not yet consumed
 };
 
 /// The six bits of a base64 digit, or -1.
