@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "benchmarks/reference/warped_elements.h"
 
+#include "benchmarks/reference/positive_part.h"
 #include "fem/common/rotation.h"
-#include "fem/elements/positive_part.h"
 
 namespace bullet_fem
 {

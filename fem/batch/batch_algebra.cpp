@@ -39,14 +39,14 @@ HWY_INLINE V storeMeasured(const V3& v, double* to)
     return dot(v, v);
 }
 
-void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes, PerBatch& squares)
+PerBatch AddLanes(ConstBodyVectors b, BodyVectors a, int nodes)
 {
-    sumOverNodes(nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const std::size_t at = place(node, lane);
-                     return storeMeasured(load3(a + at) + load3(b + at), a + at);
-                 });
+    return sumOverNodes(nodes,
+                        [&](int node, int lane)
+                        {
+                            const std::size_t at = place(node, lane);
+                            return storeMeasured(load3(a + at) + load3(b + at), a + at);
+                        });
 }
 
 HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
@@ -68,14 +68,14 @@ HWY_INLINE V storeResidual(const BatchRecurrence& v, const V3& r, int lane, std:
     return dot(r, r);
 }
 
-void SubtractProduct(const BatchRecurrence& v, PerBatch& squares)
+PerBatch SubtractProduct(const BatchRecurrence& v)
 {
-    sumOverNodes(v.m_nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const std::size_t at = place(node, lane);
-                     return storeResidual(v, load3(v.m_b + at) - load3(v.m_Ap + at), lane, at);
-                 });
+    return sumOverNodes(v.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const std::size_t at = place(node, lane);
+                            return storeResidual(v, load3(v.m_b + at) - load3(v.m_Ap + at), lane, at);
+                        });
 }
 
 void ClearOthers(const PerBatch& kept, BodyVectors a, int nodes)
@@ -88,17 +88,17 @@ void ClearOthers(const PerBatch& kept, BodyVectors a, int nodes)
                   });
 }
 
-void ScaleGuess(const BatchRecurrence& v, const PerBatch& scale, PerBatch& squares)
+PerBatch ScaleGuess(const BatchRecurrence& v, const PerBatch& scale)
 {
-    sumOverNodes(v.m_nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const std::size_t at = place(node, lane);
-                     const V s = valuesOf(scale, lane);
-                     const V3 b = load3(v.m_b + at);
-                     storeActive(v, load3(v.m_x + at) * s, lane, v.m_x + at);
-                     return storeResidual(v, choose(s > hn::Zero(D()), b - load3(v.m_Ap + at) * s, b), lane, at);
-                 });
+    return sumOverNodes(v.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const std::size_t at = place(node, lane);
+                            const V s = valuesOf(scale, lane);
+                            const V3 b = load3(v.m_b + at);
+                            storeActive(v, load3(v.m_x + at) * s, lane, v.m_x + at);
+                            return storeResidual(v, choose(s > hn::Zero(D()), b - load3(v.m_Ap + at) * s, b), lane, at);
+                        });
 }
 
 void TurnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
@@ -113,41 +113,40 @@ void TurnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch&
                 });
 }
 
-void AdvanceAlong(const BatchRecurrence& v, const PerBatch& step, PerBatch& squares)
+PerBatch AdvanceAlong(const BatchRecurrence& v, const PerBatch& step)
 {
-    sumOverNodes(v.m_nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const std::size_t at = place(node, lane);
-                     const V s = valuesOf(step, lane);
-                     storeActive(v, load3(v.m_x + at) + load3(v.m_p + at) * s, lane, v.m_x + at);
-                     return storeResidual(v, load3(v.m_r + at) + load3(v.m_Ap + at) * hn::Neg(s), lane, at);
-                 });
+    return sumOverNodes(v.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const std::size_t at = place(node, lane);
+                            const V s = valuesOf(step, lane);
+                            storeActive(v, load3(v.m_x + at) + load3(v.m_p + at) * s, lane, v.m_x + at);
+                            return storeResidual(v, load3(v.m_r + at) + load3(v.m_Ap + at) * hn::Neg(s), lane, at);
+                        });
 }
 
-void AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b,
-               PerBatch& squares)
+PerBatch AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
 {
     const V h = hn::Set(D(), step);
-    sumOverNodes(inertia.m_nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
-                     const std::size_t at = place(node, lane);
-                     const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
-                     return storeMeasured((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
-                 });
+    return sumOverNodes(inertia.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+                            const std::size_t at = place(node, lane);
+                            const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
+                            return storeMeasured((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
+                        });
 }
 
-void SubtractSums(const BatchInertia& inertia, double share, BodyVectors b, PerBatch& squares)
+PerBatch SubtractSums(const BatchInertia& inertia, double share, BodyVectors b)
 {
     const V s = hn::Set(D(), share);
-    sumOverNodes(inertia.m_nodes, squares,
-                 [&](int node, int lane)
-                 {
-                     const std::size_t at = place(node, lane);
-                     return storeMeasured(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
-                 });
+    return sumOverNodes(inertia.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const std::size_t at = place(node, lane);
+                            return storeMeasured(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
+                        });
 }
 
 /// Computes and stores A p at a node.
@@ -162,19 +161,19 @@ HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const
     return product;
 }
 
-void AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap,
-                PerBatch& products)
+PerBatch AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
 {
-    sumOverNodes(inertia.m_nodes, products,
-                 [&](int node, int lane)
-                 {
-                     const V3 pi = load3(p + place(node, lane));
-                     return dot(pi, applyAt(inertia, factor, pi, Ap, node, lane));
-                 });
+    return sumOverNodes(inertia.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            const V3 pi = load3(p + place(node, lane));
+                            return dot(pi, applyAt(inertia, factor, pi, Ap, node, lane));
+                        });
 }
 
-void MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess, BatchGuessMeasure& out)
+BatchGuessMeasure MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess)
 {
+    BatchGuessMeasure out;
     sumsOverNodes<4>(inertia.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
                      [&](int node, int lane)
                      {
@@ -183,6 +182,7 @@ void MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const Bat
                          const V3 Ax = applyAt(inertia, factor, x, guess.m_Ax, node, lane), r = b - Ax;
                          return Terms<4>{{dot(x, x), dot(b, x), dot(x, Ax), dot(r, r)}};
                      });
+    return out;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -193,94 +193,31 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(SubtractLanes);
-HWY_EXPORT(ContinueLanes);
-HWY_EXPORT(AddLanes);
-HWY_EXPORT(SubtractProduct);
-HWY_EXPORT(ClearOthers);
-HWY_EXPORT(ScaleGuess);
-HWY_EXPORT(TurnDirection);
-HWY_EXPORT(AdvanceAlong);
-HWY_EXPORT(AddForces);
-HWY_EXPORT(SubtractSums);
-HWY_EXPORT(AddInertia);
-HWY_EXPORT(MeasureGuess);
-
-void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
-{
-    HWY_DYNAMIC_DISPATCH(SubtractLanes)(a, b, out, nodes);
-}
-
-void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes)
-{
-    HWY_DYNAMIC_DISPATCH(ContinueLanes)(a, b, out, nodes);
-}
-
-PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(AddLanes)(b, a, nodes, squares);
-    return squares;
-}
-
-PerBatch subtractProduct(const BatchRecurrence& v)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(SubtractProduct)(v, squares);
-    return squares;
-}
-
-void clearOthers(const PerBatch& kept, BodyVectors a, int nodes)
-{
-    HWY_DYNAMIC_DISPATCH(ClearOthers)(kept, a, nodes);
-}
-
-PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(ScaleGuess)(v, scale, squares);
-    return squares;
-}
-
-void turnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta)
-{
-    HWY_DYNAMIC_DISPATCH(TurnDirection)(v, z, beta);
-}
-
-PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(AdvanceAlong)(v, step, squares);
-    return squares;
-}
-
-PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(AddForces)(inertia, alpha, step, v, b, squares);
-    return squares;
-}
-
-PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(SubtractSums)(inertia, share, b, squares);
-    return squares;
-}
-
-PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
-{
-    PerBatch products;
-    HWY_DYNAMIC_DISPATCH(AddInertia)(inertia, factor, p, Ap, products);
-    return products;
-}
-
-BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess)
-{
-    BatchGuessMeasure measure;
-    HWY_DYNAMIC_DISPATCH(MeasureGuess)(inertia, factor, guess, measure);
-    return measure;
-}
+BULLETFEM_EXPORT(SubtractLanes, void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes), a, b,
+                 out, nodes)
+BULLETFEM_EXPORT(ContinueLanes, void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes), a,
+                 b, out, nodes)
+BULLETFEM_EXPORT(AddLanes, PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes), b, a, nodes)
+BULLETFEM_EXPORT(SubtractProduct, PerBatch subtractProduct(const BatchRecurrence& v), v)
+BULLETFEM_EXPORT(ClearOthers, void clearOthers(const PerBatch& kept, BodyVectors a, int nodes), kept, a, nodes)
+BULLETFEM_EXPORT(ScaleGuess, PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale), v, scale)
+BULLETFEM_EXPORT(TurnDirection, void turnDirection(const BatchRecurrence& v, ConstBodyVectors z, const PerBatch& beta),
+                 v, z, beta)
+BULLETFEM_EXPORT(AdvanceAlong, PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step), v, step)
+BULLETFEM_EXPORT(AddForces,
+                 PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v,
+                                    BodyVectors b),
+                 inertia, alpha, step, v, b)
+BULLETFEM_EXPORT(SubtractSums, PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b), inertia,
+                 share, b)
+BULLETFEM_EXPORT(AddInertia,
+                 PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p,
+                                     BodyVectors Ap),
+                 inertia, factor, p, Ap)
+BULLETFEM_EXPORT(MeasureGuess,
+                 BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor,
+                                                const BatchGuess& guess),
+                 inertia, factor, guess)
 
 }  // namespace bullet_fem
 #endif

@@ -7,6 +7,8 @@
 #pragma once
 
 #include "fem/body/batch_width.h"
+#include "fem/body/rigid_momentum.h"
+#include "fem/elements/element_blocks.h"
 
 namespace bullet_fem
 {
@@ -68,5 +70,80 @@ struct BatchGuessMeasure
     PerBatch m_xx, m_bx, m_xAx, m_residual;  ///< x . x, b . x, x . A x, |b - A x|^2
 };
 BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess);
+
+// RigidMomentum for bodies side by side, each a single free connected component.
+
+/// Rigid-body quantities of the bodies.
+struct BatchMomenta
+{
+    PerBatch m_mass;
+    PerBatch3 m_center, m_linear, m_angular;
+    PerBatch m_inertia[9];  ///< row-major inertia, later its inverse
+};
+
+/// Masses and positions of all nodes.
+struct BatchMasses
+{
+    int m_nodes;
+    const double* m_mass;  ///< [node][body] [kg]
+    ConstBodyVectors m_x;  ///< [m]
+};
+
+/// Sets the masses, and m_center to the sum of m x (not yet divided by the mass).
+void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces);
+
+/// Sums the momenta prescribed by the loads, p + share (f - alpha p) with p = m v, and the inertia, about m_center,
+/// which must be the centre of mass by now. Returns |f|^2, summed in node order.
+struct BatchLoads
+{
+    ConstBodyVectors m_v, m_force;
+    PerBatch m_alpha, m_share;
+};
+PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces);
+
+/// w = ofVelocity v - ofTurning h w' x (w' x r), with the angular velocities w' of the prescribed momenta: see
+/// RigidMomentum::addTurning() and ViscousShares.
+struct BatchTurning
+{
+    ConstBodyVectors m_v;
+    double m_step, m_ofVelocity, m_ofTurning;
+};
+void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w);
+
+/// Adds share times the impulses [N s] to the prescribed momenta; returns the squared norm of the impulses.
+PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces);
+
+/// Adds to the increments dv [m/s] the rigid motion that gives v + dv the prescribed momentum.
+void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv);
+
+/// v += dv, plus the rigid motion that gives every body its prescribed momentum; m_inertia is the inverse by now.
+void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v);
+
+// NodeRotations and the rotations in WarpedPreconditioner for bodies side by side.
+
+/// Averages element rotations to node rotations.
+struct BatchNodeRotations
+{
+    const NodeCorners* m_nodes;
+    const float* m_elements;    ///< [element][x, y, z, w][body]
+    float* m_out;               ///< [node][9][body], row-major
+    unsigned* m_needsFallback;  ///< output, per node: bit b is set if body b needs robustAverage()
+};
+void averageRotations(const BatchNodeRotations& rotations);
+
+/// The factor's vectors of bodies side by side, [position][3][body], and their node rotations.
+struct BatchWarp
+{
+    int m_nodes;
+    const int* m_position;    ///< position of each node in the factor
+    const float* m_rotation;  ///< [node][9][body]
+    float* m_factorVector;
+};
+
+/// Factor vector <- R^T in / scale, with `scale` chosen to bring it to order one; returns the scale.
+PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in);
+
+/// out <- scale R (factor vector); returns in . out.
+PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out);
 
 }  // namespace bullet_fem

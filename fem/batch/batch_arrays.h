@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "bullet_fem/fem/factor/body_model.h"
+#include "fem/batch/batch_algebra.h"
 #include "fem/batch/batch_elements.h"
-#include "fem/batch/batch_momentum.h"
-#include "fem/batch/batch_rotations.h"
 #include "fem/common/aligned_array.h"
 
 namespace bullet_fem

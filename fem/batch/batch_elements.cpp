@@ -272,23 +272,17 @@ namespace bullet_fem
 {
 
 HWY_EXPORT(HasLaneKernels);
-HWY_EXPORT(PassOverLanes);
-HWY_EXPORT(MultiplyLanes);
 
 bool hasBatchKernels()
 {
     return HWY_DYNAMIC_DISPATCH(HasLaneKernels)();
 }
 
-void runElementPass(const BatchElements& elements, const BatchElementPass& pass)
-{
-    HWY_DYNAMIC_DISPATCH(PassOverLanes)(elements, pass);
-}
-
-void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p)
-{
-    HWY_DYNAMIC_DISPATCH(MultiplyLanes)(elements, stiffnessFactor, p);
-}
+BULLETFEM_EXPORT(PassOverLanes, void runElementPass(const BatchElements& elements, const BatchElementPass& pass),
+                 elements, pass)
+BULLETFEM_EXPORT(MultiplyLanes,
+                 void runElementProduct(const BatchElements& elements, double stiffnessFactor, const double* p),
+                 elements, stiffnessFactor, p)
 
 }  // namespace bullet_fem
 #endif

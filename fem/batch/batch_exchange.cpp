@@ -93,30 +93,15 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(GatherFloats);
-HWY_EXPORT(GatherDoubles);
-HWY_EXPORT(ScatterFloats);
-HWY_EXPORT(ScatterDoubles);
-
-void gatherBatch(const float* const* arrays, float* lanes, const BatchLayout& layout)
-{
-    HWY_DYNAMIC_DISPATCH(GatherFloats)(arrays, lanes, layout);
-}
-
-void gatherBatch(const double* const* arrays, double* lanes, const BatchLayout& layout)
-{
-    HWY_DYNAMIC_DISPATCH(GatherDoubles)(arrays, lanes, layout);
-}
-
-void scatterBatch(float* const* arrays, const float* lanes, const BatchLayout& layout)
-{
-    HWY_DYNAMIC_DISPATCH(ScatterFloats)(arrays, lanes, layout);
-}
-
-void scatterBatch(double* const* arrays, const double* lanes, const BatchLayout& layout)
-{
-    HWY_DYNAMIC_DISPATCH(ScatterDoubles)(arrays, lanes, layout);
-}
+BULLETFEM_EXPORT(GatherFloats, void gatherBatch(const float* const* arrays, float* lanes, const BatchLayout& layout),
+                 arrays, lanes, layout)
+BULLETFEM_EXPORT(GatherDoubles, void gatherBatch(const double* const* arrays, double* lanes, const BatchLayout& layout),
+                 arrays, lanes, layout)
+BULLETFEM_EXPORT(ScatterFloats, void scatterBatch(float* const* arrays, const float* lanes, const BatchLayout& layout),
+                 arrays, lanes, layout)
+BULLETFEM_EXPORT(ScatterDoubles,
+                 void scatterBatch(double* const* arrays, const double* lanes, const BatchLayout& layout), arrays,
+                 lanes, layout)
 
 }  // namespace bullet_fem
 #endif

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Compiled once for every instruction set; selected at run time.
-#include "fem/batch/batch_momentum.h"
+#include "fem/batch/batch_algebra.h"
 
 #include "fem/common/vector_targets.h"
 
@@ -58,8 +58,9 @@ void SumMasses(const BatchMasses& nodes, BatchMomenta& pieces)
     }
 }
 
-void SumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces, PerBatch& squares)
+PerBatch SumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces)
 {
+    PerBatch squares;
     for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V zero = hn::Zero(D()), alpha = valuesOf(loads.m_alpha, lane), share = valuesOf(loads.m_share, lane);
@@ -85,11 +86,12 @@ void SumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomen
                               others.x,   others.y, others.x, diagonal.z};
         for (int k = 0; k < 9; ++k) storeValues(inertia[k], lane, pieces.m_inertia[k]);
     }
+    return squares;
 }
 
-void AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces,
-                 PerBatch& squares)
+PerBatch AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces)
 {
+    PerBatch squares;
     for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V3 center = load(pieces.m_center, lane);
@@ -106,6 +108,7 @@ void AddImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerB
         store(linear, lane, pieces.m_linear);
         store(angular, lane, pieces.m_angular);
     }
+    return squares;
 }
 
 /// Product of the inverse inertia and a vector.
@@ -181,46 +184,26 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(SumMasses);
-HWY_EXPORT(SumPrescribed);
-HWY_EXPORT(AddImpulses);
-HWY_EXPORT(FindViscous);
-HWY_EXPORT(CompleteIncrements);
-HWY_EXPORT(AddWithMomentum);
-
-void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces)
-{
-    HWY_DYNAMIC_DISPATCH(SumMasses)(nodes, pieces);
-}
-
-PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(SumPrescribed)(nodes, loads, pieces, squares);
-    return squares;
-}
-
-PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces)
-{
-    PerBatch squares;
-    HWY_DYNAMIC_DISPATCH(AddImpulses)(nodes, impulses, share, pieces, squares);
-    return squares;
-}
-
-void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w)
-{
-    HWY_DYNAMIC_DISPATCH(FindViscous)(nodes, pieces, turning, w);
-}
-
-void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv)
-{
-    HWY_DYNAMIC_DISPATCH(CompleteIncrements)(nodes, pieces, v, dv);
-}
-
-void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v)
-{
-    HWY_DYNAMIC_DISPATCH(AddWithMomentum)(nodes, pieces, dv, v);
-}
+BULLETFEM_EXPORT(SumMasses, void sumMasses(const BatchMasses& nodes, BatchMomenta& pieces), nodes, pieces)
+BULLETFEM_EXPORT(SumPrescribed,
+                 PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces), nodes,
+                 loads, pieces)
+BULLETFEM_EXPORT(AddImpulses,
+                 PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share,
+                                      BatchMomenta& pieces),
+                 nodes, impulses, share, pieces)
+BULLETFEM_EXPORT(FindViscous,
+                 void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning,
+                                  BodyVectors w),
+                 nodes, pieces, turning, w)
+BULLETFEM_EXPORT(CompleteIncrements,
+                 void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v,
+                                         BodyVectors dv),
+                 nodes, pieces, v, dv)
+BULLETFEM_EXPORT(AddWithMomentum,
+                 void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv,
+                                      BodyVectors v),
+                 nodes, pieces, dv, v)
 
 }  // namespace bullet_fem
 #endif

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Compiled once for every instruction set; selected at run time.
-#include "fem/batch/batch_rotations.h"
+#include "fem/batch/batch_algebra.h"
 
 #include "fem/common/vector_targets.h"
 
@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 // after foreach_target.h
 #include "fem/batch/batch_vectors-inl.h"
-#include "fem/elements/robust_average.h"
+#include "fem/elements/robust_rotations.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -100,8 +100,9 @@ void AverageLanes(const BatchNodeRotations& rotations)
     }
 }
 
-void RotateIn(const BatchWarp& warp, ConstBodyVectors in, PerBatch& largest)
+PerBatch RotateIn(const BatchWarp& warp, ConstBodyVectors in)
 {
+    PerBatch largest;
     for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
         const V zero = hn::Zero(D()), one = hn::Set(D(), 1.0);
@@ -124,22 +125,23 @@ void RotateIn(const BatchWarp& warp, ConstBodyVectors in, PerBatch& largest)
             storeFloats(DF(), turned, warp.m_position[i], lane, warp.m_factorVector);
         }
     }
+    return largest;
 }
 
-void RotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out, PerBatch& products)
+PerBatch RotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out)
 {
-    sumOverNodes(warp.m_nodes, products,
-                 [&](int node, int lane)
-                 {
-                     F R[9], q[3];
-                     loadFloats(DF(), warp.m_rotation, node, lane, R);
-                     loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
-                     const auto row = [&](int c)
-                     { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
-                     const V3 turned = V3{row(0), row(1), row(2)} * valuesOf(scale, lane);
-                     store3(turned, out + place(node, lane));
-                     return dot(load3(in + place(node, lane)), turned);
-                 });
+    return sumOverNodes(warp.m_nodes,
+                        [&](int node, int lane)
+                        {
+                            F R[9], q[3];
+                            loadFloats(DF(), warp.m_rotation, node, lane, R);
+                            loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
+                            const auto row = [&](int c)
+                            { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
+                            const V3 turned = V3{row(0), row(1), row(2)} * valuesOf(scale, lane);
+                            store3(turned, out + place(node, lane));
+                            return dot(load3(in + place(node, lane)), turned);
+                        });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -150,28 +152,11 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(AverageLanes);
-HWY_EXPORT(RotateIn);
-HWY_EXPORT(RotateOut);
-
-void averageRotations(const BatchNodeRotations& rotations)
-{
-    HWY_DYNAMIC_DISPATCH(AverageLanes)(rotations);
-}
-
-PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in)
-{
-    PerBatch largest;
-    HWY_DYNAMIC_DISPATCH(RotateIn)(warp, in, largest);
-    return largest;
-}
-
-PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out)
-{
-    PerBatch products;
-    HWY_DYNAMIC_DISPATCH(RotateOut)(warp, scale, in, out, products);
-    return products;
-}
+BULLETFEM_EXPORT(AverageLanes, void averageRotations(const BatchNodeRotations& rotations), rotations)
+BULLETFEM_EXPORT(RotateIn, PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in), warp, in)
+BULLETFEM_EXPORT(RotateOut,
+                 PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out),
+                 warp, scale, in, out)
 
 }  // namespace bullet_fem
 #endif

@@ -154,9 +154,11 @@ HWY_INLINE void sumsOverNodes(int nodes, PerBatch* const (&out)[kSums], const Te
 
 /// One such sum: in chunks, with four partial sums in each.
 template <class Term>
-HWY_INLINE void sumOverNodes(int nodes, PerBatch& out, const Term& term)
+HWY_INLINE PerBatch sumOverNodes(int nodes, const Term& term)
 {
+    PerBatch out;
     sumsOverNodes<1>(nodes, {&out}, [&](int node, int lane) { return Terms<1>{{term(node, lane)}}; });
+    return out;
 }
 
 /// Calls visit(at, lane) for every vector of values of [node][3][body].

@@ -10,7 +10,7 @@
 #include "fem/batch/batch_loan.h"
 #include "fem/batch/body_batch.h"
 #include "fem/elements/model_elements.h"
-#include "fem/elements/robust_average.h"
+#include "fem/elements/robust_rotations.h"
 #include "fem/solve/drift.h"
 #include "fem/solve/smoothing.h"
 #include "fem/solve/step_stages.h"
@@ -220,13 +220,6 @@ public:
             m_stops[b] = stopOf(response(b).m_settings, response(b).m_floor, response(b).m_steady);
     }
 
-    void completeSystem()
-    {
-        gatherWarped();
-        for (int b = 0; b < kBatchWidth; ++b)
-            m_inertiaFactor[b] = 1 + m_settings.m_step * RigidMomentum::damping(body(b));
-    }
-
     void addMomentum()
     {
         PerBatch share;
@@ -293,13 +286,6 @@ public:
                       m_arrays.m_increment.get());
     }
 
-    void completeSystem()
-    {
-        gatherWarped();
-        for (int b = 0; b < kBatchWidth; ++b)
-            m_inertiaFactor[b] = 1 + m_settings.m_step * RigidMomentum::damping(body(b));
-    }
-
     void applyStiffness()
     {
         stiffnessOf(m_arrays.m_increment.get());
@@ -312,16 +298,15 @@ public:
     }
 };
 
-// Calls solve(arrays, bodies) with borrowed arrays.
-template <class Job, class Solve>
+// Calls solve(batch) with borrowed arrays.
+template <class Batch, class Job, class Solve>
 bool solveInArrays(Job* const* jobs, int count, const Solve& solve)
 {
     if (count < kSmallestBatch) return false;
-    const Body& first = *jobs[0]->m_body;
     std::optional<BatchLoan> loan;
     try
     {
-        loan.emplace(*jobs[0]->m_settings.m_batchMemory, first.m_model);
+        loan.emplace(*jobs[0]->m_settings.m_batchMemory, jobs[0]->m_body->m_model);
     }
     catch (const std::bad_alloc&)
     {
@@ -329,7 +314,8 @@ bool solveInArrays(Job* const* jobs, int count, const Solve& solve)
     }
     Body* bodies[kBatchWidth];
     for (int k = 0; k < count; ++k) bodies[k] = jobs[k]->m_body;
-    solve(loan->arrays(), bodies);
+    Batch batch(loan->arrays(), bodies, count, jobs);
+    solve(batch);
     return true;
 }
 
@@ -337,32 +323,17 @@ bool solveInArrays(Job* const* jobs, int count, const Solve& solve)
 
 bool solveBatched(FreeMotion* const* motions, int count)
 {
-    return solveInArrays(motions, count,
-                         [&](BatchArrays& arrays, Body* const* bodies)
-                         {
-                             BatchedMotions batch(arrays, bodies, count, motions);
-                             solveFreeMotion(batch);
-                         });
+    return solveInArrays<BatchedMotions>(motions, count, [](BatchedMotions& batch) { solveFreeMotion(batch); });
 }
 
 bool solveBatched(ImpulseResponse* const* responses, int count)
 {
-    return solveInArrays(responses, count,
-                         [&](BatchArrays& arrays, Body* const* bodies)
-                         {
-                             BatchedResponses batch(arrays, bodies, count, responses);
-                             respondToImpulses(batch);
-                         });
+    return solveInArrays<BatchedResponses>(responses, count, [](BatchedResponses& batch) { respondToImpulses(batch); });
 }
 
 bool solveBatched(StepEnd* const* ends, int count)
 {
-    return solveInArrays(ends, count,
-                         [&](BatchArrays& arrays, Body* const* bodies)
-                         {
-                             BatchedSmoothing batch(arrays, bodies, count, ends);
-                             findUnresolved(batch);
-                         });
+    return solveInArrays<BatchedSmoothing>(ends, count, [](BatchedSmoothing& batch) { findUnresolved(batch); });
 }
 
 }  // namespace bullet_fem

@@ -47,13 +47,14 @@ void BodyBatch::keepMomenta() const
     }
 }
 
-void BodyBatch::gatherWarped()
+void BodyBatch::completeSystem()
 {
     for (int b = 0; b < m_count; ++b) completeWarpedSystem(body(b), m_settings);
     gather([this](int b) { return scratch(b).m_elements.m_single.m_warped.front().rows(); }, m_arrays.m_warped.get(),
            warped());
     gather([this](int b) { return scratch(b).m_elements.m_nodeRotation.front().m; }, m_arrays.m_nodeRotation.get(),
            {9 * nodes()});
+    for (int b = 0; b < kBatchWidth; ++b) m_inertiaFactor[b] = 1 + m_settings.m_step * RigidMomentum::damping(body(b));
 }
 
 // Adds to the initial guess of dv the rigid motion that gives the bodies their prescribed momentum.

@@ -28,6 +28,7 @@ public:
     // Stages of the step.
     void solve() { solveConjugateGradients(*this, m_stops, m_isGuessed, m_reports.data()); }
     void addIncrement();
+    void completeSystem();
 
     // Interface of solveConjugateGradients().
     static constexpr int kBodies = kBatchWidth;
@@ -90,7 +91,6 @@ protected:
     void gatherNodes();
     void gatherMomenta();
     void keepMomenta() const;
-    void gatherWarped();
     void completeGuess();
     void stiffnessOf(BodyVectors p);
     void keepResiduals(const std::array<bool, kBatchWidth>& wanted) const;

@@ -9,8 +9,6 @@
 #include "bullet_fem/fem/cage/painted_regions.h"
 #include "fem/cage/cage_embedding.h"
 #include "fem/cage/cage_fill.h"
-#include "fem/cage/cage_size.h"
-#include "fem/cage/cage_snap.h"
 #include "fem/cage/cage_stages.h"
 #include "fem/cage/graded_lattice.h"
 #include "fem/common/message.h"

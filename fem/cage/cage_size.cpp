@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage/cage_size.h"
+#include "fem/cage/cage_stages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "fem/cage/cage_fill.h"
-#include "fem/cage/cage_stages.h"
 #include "fem/cage/graded_lattice.h"
 #include "fem/common/message.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/cage/cage_snap.h"
+#include "fem/cage/cage_stages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include "fem/cage/tet_region.h"
 #include "fem/cage/triangle_overlap.h"
 
 namespace bullet_fem

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "fem/common/message.h"
+#include "fem/mesh/element_faces.h"
 
 namespace bullet_fem
 {
@@ -35,29 +36,6 @@ Vec3 middleOfTet(const TetMesh& mesh, int e)
     return sum;
 }
 
-/// Neighbours across faces of every element.
-std::vector<std::vector<int>> elementsAcrossFaces(const TetMesh& mesh)
-{
-    std::vector<std::pair<Triangle, int>> faces;
-    for (int e = 0; e < mesh.tetCount(); ++e)
-        for (int a = 0; a < 4; ++a)
-        {
-            const Tet& tet = mesh.tets()[e];
-            Triangle nodes = {tet[(a + 1) % 4], tet[(a + 2) % 4], tet[(a + 3) % 4]};
-            std::sort(nodes.begin(), nodes.end());
-            faces.emplace_back(nodes, e);
-        }
-    std::sort(faces.begin(), faces.end());
-    std::vector<std::vector<int>> across(mesh.tets().size());
-    for (std::size_t k = 1; k < faces.size(); ++k)
-    {
-        if (faces[k].first != faces[k - 1].first) continue;
-        across[faces[k].second].push_back(faces[k - 1].second);
-        across[faces[k - 1].second].push_back(faces[k].second);
-    }
-    return across;
-}
-
 }  // namespace
 
 std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
@@ -80,7 +58,7 @@ std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
         way[e] = 0;
         front.push({0, e, e});
     }
-    const std::vector<std::vector<int>> across = elementsAcrossFaces(mesh);
+    const std::vector<std::array<int, 4>> behind = elementsBehindFaces(mesh.tets());
     std::vector<char> isDone(label.size(), 0);
     while (!front.empty())
     {
@@ -89,8 +67,9 @@ std::vector<int> paintedRegions(const TetMesh& mesh, const SurfaceMesh& surface,
         if (isDone[at]) continue;
         isDone[at] = 1;
         label[at] = label[from];
-        for (const int next : across[at])
+        for (const int next : behind[at])
         {
+            if (next < 0) continue;
             const double farther = distance + norm(middleOfTet(mesh, next) - middleOfTet(mesh, at));
             if (farther > way[next]) continue;
             way[next] = farther;

@@ -6,8 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "fem/cage/tet_region.h"
-
 namespace bullet_fem
 {
 namespace

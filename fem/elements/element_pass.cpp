@@ -21,16 +21,6 @@ namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-#if HWY_TARGET == HWY_SCALAR
-
-// For processors without vector instructions.
-template <class Real>
-void passBlocks(const ElementPass<Real>& pass, Range blocks)
-{
-    reference::runElementPass(pass, blocks);
-}
-
-#else
 
 /// The nodal data of a vector of elements.
 template <class Real>
@@ -83,10 +73,7 @@ struct PassLanes
 
     HWY_INLINE Symmetric<Real> initialStress() const
     {
-        const Lanes<Real> d;
-        const auto& entry = m_pass.m_initialStress[m_block].m_entry;
-        return {hn::Load(d, entry[0] + m_lane), hn::Load(d, entry[1] + m_lane), hn::Load(d, entry[2] + m_lane),
-                hn::Load(d, entry[3] + m_lane), hn::Load(d, entry[4] + m_lane), hn::Load(d, entry[5] + m_lane)};
+        return loadSymmetric(m_pass.m_initialStress[m_block].m_entry, m_lane);
     }
 
     HWY_INLINE void storeForces(const Matrix<Real>& f) const { storeCorners(f, m_pass.m_force[m_block], m_lane); }
@@ -105,15 +92,13 @@ struct PassLanes
 
     HWY_INLINE Matrix<Real> loadGradients() const { return loadMatrix(m_pass.m_warped[m_block].m_gradient, m_lane); }
 
-    HWY_INLINE void storeTension(const Symmetric<Real>& T) const { store(T, m_pass.m_warped[m_block].m_tension); }
-    HWY_INLINE void storeCofactor(const Symmetric<Real>& C) const { store(C, m_pass.m_cofactor[m_block].m_entry); }
-
-private:
-    HWY_INLINE void store(const Symmetric<Real>& S, Real (&to)[6][kLanes]) const
+    HWY_INLINE void storeTension(const Symmetric<Real>& T) const
     {
-        const Vector<Real> entries[6] = {S.xx, S.yy, S.zz, S.yz, S.xz, S.xy};
-        HWY_UNROLL(6)
-        for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<Real>(), to[k] + m_lane);
+        storeSymmetric(T, m_pass.m_warped[m_block].m_tension, m_lane);
+    }
+    HWY_INLINE void storeCofactor(const Symmetric<Real>& C) const
+    {
+        storeSymmetric(C, m_pass.m_cofactor[m_block].m_entry, m_lane);
     }
 };
 
@@ -231,26 +216,37 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
     }
 }
 
-#endif
-
 template <class Real>
 void passUnits(const ElementPass<Real>& pass, Range pieces)
 {
-#if HWY_TARGET != HWY_SCALAR
     if (pass.m_elements->hasPatches()) return passPatches(pass, pieces);
-#endif
     passBlocks(pass, pieces);
 }
 
-void elementPassFloat(const ElementPass<float>& pass, Range pieces)
+template <class Real>
+void strainBlocks(const ElementStrains<Real>& strains, Range blocks)
 {
-    passUnits(pass, pieces);
+    constexpr int kN = width<Real>();
+    for (int b = blocks.m_begin; b < blocks.m_end; ++b)
+        for (int lane = 0; lane < kLanes; lane += kN)
+        {
+            const ElementBlock<Real>& block = strains.m_elements->m_blocks[b];
+            StagedEdges<double, kN> staged;
+            staged.stage(block.m_node + lane, strains.m_x);
+            const DeformedLanes<Real> elements = {block, staged, lane};
+            Quaternion* rotation = strains.m_rotation + b * kLanes + lane;
+            const Matrix<Real> F = times(roundedEdges<Real>(elements), elements.DmInverse());
+            Quaternions<Real> q = loadQuaternions(rotation, Real());
+            polarRotations(&F, 1, &q);
+            storeQuaternions(q, rotation);
+            const Symmetric<Real> E = strainInFrameOf(toMatrix(q, number<Real>(2)),
+                                                      times(edgesMinusRotated(elements, q), elements.DmInverse()));
+            storeSymmetric(withoutDoubling(E), strains.m_strain[b].m_entry, lane);
+        }
 }
 
-void elementPassDouble(const ElementPass<double>& pass, Range pieces)
-{
-    passUnits(pass, pieces);
-}
+BULLETFEM_KERNEL(passUnits, ElementPass)
+BULLETFEM_KERNEL(strainBlocks, ElementStrains)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
@@ -260,20 +256,8 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(elementPassFloat);
-HWY_EXPORT(elementPassDouble);
-
-template <>
-void runElementPass(const ElementPass<float>& pass, Range pieces)
-{
-    HWY_DYNAMIC_DISPATCH(elementPassFloat)(pass, pieces);
-}
-
-template <>
-void runElementPass(const ElementPass<double>& pass, Range pieces)
-{
-    HWY_DYNAMIC_DISPATCH(elementPassDouble)(pass, pieces);
-}
+BULLETFEM_EXPORT_KERNEL(passUnits, ElementPass, runElementPass)
+BULLETFEM_EXPORT_KERNEL(strainBlocks, ElementStrains, runElementStrains)
 
 }  // namespace bullet_fem
 #endif

@@ -64,11 +64,27 @@ struct ElementPass
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range pieces);
 
-/// Reference implementation in plain C++, for tests of the kernel.
-namespace reference
-{
+/// Strains of kLanes elements in their own frames, sym(R^T F) - I [-]: xx, yy, zz, yz, xz, xy, shears not doubled.
 template <class Real>
-void runElementPass(const ElementPass<Real>& pass, Range pieces);
-}
+struct alignas(64) StrainBlock
+{
+    Real m_entry[6][kLanes];
+};
+
+/// Strains and rotations of all elements at the present positions. F - R is computed in double and R as in an
+/// ElementPass. Positions must be finite.
+template <class Real>
+struct ElementStrains
+{
+    const ElementBlocks<Real>* m_elements;
+    const PaddedVec3* m_x;        ///< per node [m]
+    Quaternion* m_rotation;       ///< in: initial guess, out: solution; kLanes a block
+    StrainBlock<Real>* m_strain;  ///< out, one per block
+};
+
+/// Runs over a range of blocks, on the widest vectors that the processor has. Bitwise independent of the division into
+/// ranges. Never allocates; thread-safe on distinct blocks.
+template <class Real>
+void runElementStrains(const ElementStrains<Real>& strains, Range blocks);
 
 }  // namespace bullet_fem

@@ -19,24 +19,6 @@ namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-#if HWY_TARGET == HWY_SCALAR
-
-// For processors without vector instructions.
-template <class Real>
-void multiplyBlocks(const ElementProduct<Real>& product, Range blocks)
-{
-    reference::runElementProduct(product, blocks);
-}
-
-#else
-
-template <class Real>
-HWY_INLINE Symmetric<Real> loadSymmetric(const Real (&t)[6][kLanes], int lane)
-{
-    const Lanes<Real> d;
-    return {hn::Load(d, t[0] + lane), hn::Load(d, t[1] + lane), hn::Load(d, t[2] + lane),
-            hn::Load(d, t[3] + lane), hn::Load(d, t[4] + lane), hn::Load(d, t[5] + lane)};
-}
 
 template <class Real>
 HWY_INLINE void multiplyBlocks(const ElementProduct<Real>& product, Range blocks)
@@ -104,26 +86,14 @@ HWY_INLINE void multiplyPatches(const ElementProduct<Real>& product, Range group
     forEachColumn<Real>(elements.m_groups, groups, stage, compute);
 }
 
-#endif
-
 template <class Real>
 void multiplyUnits(const ElementProduct<Real>& product, Range pieces)
 {
-#if HWY_TARGET != HWY_SCALAR
     if (product.m_elements->hasPatches()) return multiplyPatches(product, pieces);
-#endif
     multiplyBlocks(product, pieces);
 }
 
-void elementProductFloat(const ElementProduct<float>& product, Range pieces)
-{
-    multiplyUnits(product, pieces);
-}
-
-void elementProductDouble(const ElementProduct<double>& product, Range pieces)
-{
-    multiplyUnits(product, pieces);
-}
+BULLETFEM_KERNEL(multiplyUnits, ElementProduct)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
@@ -133,20 +103,7 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(elementProductFloat);
-HWY_EXPORT(elementProductDouble);
-
-template <>
-void runElementProduct(const ElementProduct<float>& product, Range pieces)
-{
-    HWY_DYNAMIC_DISPATCH(elementProductFloat)(product, pieces);
-}
-
-template <>
-void runElementProduct(const ElementProduct<double>& product, Range pieces)
-{
-    HWY_DYNAMIC_DISPATCH(elementProductDouble)(product, pieces);
-}
+BULLETFEM_EXPORT_KERNEL(multiplyUnits, ElementProduct, runElementProduct)
 
 }  // namespace bullet_fem
 #endif

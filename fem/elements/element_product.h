@@ -27,11 +27,4 @@ struct ElementProduct
 template <class Real>
 void runElementProduct(const ElementProduct<Real>& product, Range pieces);
 
-/// Reference implementation in plain C++, for tests of the kernel.
-namespace reference
-{
-template <class Real>
-void runElementProduct(const ElementProduct<Real>& product, Range pieces);
-}
-
 }  // namespace bullet_fem

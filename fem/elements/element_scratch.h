@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "fem/elements/element_pass.h"
-#include "fem/elements/element_strains.h"
 #include "fem/elements/node_rotations.h"
 #include "fem/elements/orthotropic_elements.h"
 #include "fem/elements/smoothed_elements.h"

@@ -11,21 +11,11 @@
 
 #include "fem/elements/element_math-inl.h"
 
-#if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-
-template <class Real>
-HWY_INLINE Matrix<Real> plus(const Matrix<Real>& A, const Matrix<Real>& B)
-{
-    Matrix<Real> C;
-    HWY_UNROLL(9)
-    for (int k = 0; k < 9; ++k) C.m[k / 3][k % 3] = A.m[k / 3][k % 3] + B.m[k / 3][k % 3];
-    return C;
-}
 
 /// f_1, f_2, f_3 in the columns, as stored by storeCorners().
 template <class Real>
@@ -58,29 +48,19 @@ HWY_INLINE Symmetric<Real> turnedBy(const Matrix<Real>& R, const Symmetric<Real>
     return {entry(0, 0), entry(1, 1), entry(2, 2), entry(1, 2), entry(0, 2), entry(0, 1)};
 }
 
-/// The axial vector w of W in withInitialStress(), B = I + strain, with doubled shears of the strain. Zero unless all
-/// pivots of tr(B) I - B exceed kMinPivot of its trace.
+/// The axial vector w of W in withInitialStress(), with doubled shears of the strain.
 template <class Real>
 HWY_INLINE void balanceTorque(const Symmetric<Real>& strain, const Symmetric<Real>& tau, Vector<Real> (&w)[3])
 {
     using V = Vector<Real>;
-    const V one = number<Real>(1), half = number<Real>(0.5), minusHalf = number<Real>(-0.5);
-    const Symmetric<Real> B = {one + strain.xx,  one + strain.yy,  one + strain.zz,
-                               half * strain.yz, half * strain.xz, half * strain.xy};
+    const SpinMatrix<Real> spin(strain);
     // Y = B tau; B tau - tau B = Y - Y^T
-    const Matrix<Real> Y = times(full(B), full(tau));
+    const Matrix<Real> Y = times(full(spin.m_stretch), full(tau));
     const V c0 = Y.m[2][1] - Y.m[1][2], c1 = Y.m[0][2] - Y.m[2][0], c2 = Y.m[1][0] - Y.m[0][1];
-    const Symmetric<Real> H = {B.yy + B.zz,           B.xx + B.zz,           B.xx + B.yy,
-                               minusHalf * strain.yz, minusHalf * strain.xz, minusHalf * strain.xy};
-    const Symmetric<Real> A = adjugate(H);
-    const V det = dot3(H.xx, A.xx, H.xy, A.xy, H.xz, A.xz);
-    // Sylvester's pivots H.xx, A.zz / H.xx, det / A.zz.
-    const V least = hn::Max(number<Real>(kMinPivot) * trace(H), hn::Zero(Lanes<Real>()));
-    const auto definite = hn::And(hn::And(H.xx > least, A.zz > least * H.xx), det > least * A.zz);
-    const V s = hn::IfThenElseZero(definite, one / det);
-    w[0] = s * dot3(A.xx, c0, A.xy, c1, A.xz, c2);
-    w[1] = s * dot3(A.xy, c0, A.yy, c1, A.yz, c2);
-    w[2] = s * dot3(A.xz, c0, A.yz, c1, A.zz, c2);
+    const Symmetric<Real>& A = spin.m_adjugate;
+    w[0] = spin.m_inverse * dot3(A.xx, c0, A.xy, c1, A.xz, c2);
+    w[1] = spin.m_inverse * dot3(A.xy, c0, A.yy, c1, A.yz, c2);
+    w[2] = spin.m_inverse * dot3(A.xz, c0, A.yz, c1, A.zz, c2);
 }
 
 /// Adds the forces of the initial stress sigma_0 = elements.initialStress(), which includes V, and returns `elastic` +
@@ -101,13 +81,11 @@ HWY_INLINE Symmetric<Real> withInitialStress(const Elements& elements, const Qua
                              {hn::Neg(w[2] + tau.xy), hn::Neg(tau.yy), w[0] - tau.yz},
                              {w[1] - tau.xz, hn::Neg(w[0] + tau.yz), hn::Neg(tau.zz)}}};
     elements.addForces(timesTranspose(P, elements.loadGradients()));
-    return {elastic.xx + tau.xx, elastic.yy + tau.yy, elastic.zz + tau.zz,
-            elastic.yz + tau.yz, elastic.xz + tau.xz, elastic.xy + tau.xy};
+    return plus(elastic, tau);
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
 HWY_AFTER_NAMESPACE();
-#endif  // HWY_TARGET != HWY_SCALAR
 
 #endif

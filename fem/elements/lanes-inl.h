@@ -16,7 +16,6 @@
 
 #include "fem/elements/element_blocks.h"
 
-#if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
@@ -100,6 +99,21 @@ HWY_INLINE Matrix<Real> timesTranspose(const Matrix<Real>& A, const Matrix<Real>
     return C;
 }
 
+template <class Real>
+HWY_INLINE Matrix<Real> plus(const Matrix<Real>& A, const Matrix<Real>& B)
+{
+    Matrix<Real> C;
+    HWY_UNROLL(9)
+    for (int k = 0; k < 9; ++k) C.m[k / 3][k % 3] = A.m[k / 3][k % 3] + B.m[k / 3][k % 3];
+    return C;
+}
+
+template <class Real>
+HWY_INLINE Symmetric<Real> plus(const Symmetric<Real>& A, const Symmetric<Real>& B)
+{
+    return {A.xx + B.xx, A.yy + B.yy, A.zz + B.zz, A.yz + B.yz, A.xz + B.xz, A.xy + B.xy};
+}
+
 /// The symmetric matrix as a full one.
 template <class Real>
 HWY_INLINE Matrix<Real> full(const Symmetric<Real>& S)
@@ -117,6 +131,29 @@ HWY_INLINE Matrix<Real> loadMatrix(const Real (*entries)[kLanes], int lane)
     return A;
 }
 
+template <class Real>
+HWY_INLINE void storeMatrix(const Matrix<Real>& A, Real (*entries)[kLanes], int lane)
+{
+    HWY_UNROLL(9)
+    for (int k = 0; k < 9; ++k) hn::Store(A.m[k / 3][k % 3], Lanes<Real>(), entries[k] + lane);
+}
+
+template <class Real>
+HWY_INLINE Symmetric<Real> loadSymmetric(const Real (&entries)[6][kLanes], int lane)
+{
+    const Lanes<Real> d;
+    return {hn::Load(d, entries[0] + lane), hn::Load(d, entries[1] + lane), hn::Load(d, entries[2] + lane),
+            hn::Load(d, entries[3] + lane), hn::Load(d, entries[4] + lane), hn::Load(d, entries[5] + lane)};
+}
+
+template <class Real>
+HWY_INLINE void storeSymmetric(const Symmetric<Real>& S, Real (&to)[6][kLanes], int lane)
+{
+    const Vector<Real> entries[6] = {S.xx, S.yy, S.zz, S.yz, S.xz, S.xy};
+    HWY_UNROLL(6)
+    for (int k = 0; k < 6; ++k) hn::Store(entries[k], Lanes<Real>(), to[k] + lane);
+}
+
 /// D_s = [u_1 - u_0, u_2 - u_0, u_3 - u_0] of `Count` elements, transferred from nodes to vectors via memory, which is
 /// faster than gathering components. Rows are laid out so that transposing blocks of 128 bits gives vectors. They are
 /// written one iteration before they are read, to avoid store-forwarding stalls.
@@ -124,7 +161,8 @@ template <class Real, int Count = width<Real>()>
 struct StagedEdges
 {
     static constexpr int kBlock = 16 / sizeof(Real);  // entries in a block
-    HWY_ALIGN Real m_rows[3][4 / kBlock][kBlock][Count];
+    static constexpr int kRow = HWY_MAX(Count, kBlock);
+    HWY_ALIGN Real m_rows[3][4 / kBlock][kBlock][kRow];
 
     HWY_INLINE void stage(const std::int32_t (*node)[4], const PaddedVec3* u)
     {
@@ -173,17 +211,29 @@ private:
             const hn::Rebind<float, D> single;
             hn::Store(hn::DemoteTo(single, edge), single, place(a, lane, i));
         }
+#if HWY_TARGET != HWY_SCALAR
         else if constexpr (hn::MaxLanes(D()) == 4)
         {
             const hn::Half<D> half;
             hn::Store(hn::LowerHalf(half, edge), half, place(a, lane, 0));
             hn::Store(hn::UpperHalf(half, edge), half, place(a, lane, 2));
         }
+#endif
         else
             hn::Store(edge, d, place(a, lane, i));
     }
 
-    HWY_INLINE static void transposeRows(const float (&rows)[1][4][Count], int lane, Vector<float>& x, Vector<float>& y,
+#if HWY_TARGET == HWY_SCALAR
+    HWY_INLINE static void transposeRows(const Real (&rows)[4 / kBlock][kBlock][kRow], int, Vector<Real>& x,
+                                         Vector<Real>& y, Vector<Real>& z)
+    {
+        const Lanes<Real> d;
+        x = hn::Load(d, &rows[0][0][0]);
+        y = hn::Load(d, &rows[0][0][1]);
+        z = hn::Load(d, &rows[2 / kBlock][0][2 % kBlock]);
+    }
+#else
+    HWY_INLINE static void transposeRows(const float (&rows)[1][4][kRow], int lane, Vector<float>& x, Vector<float>& y,
                                          Vector<float>& z)
     {
         const Lanes<float> d;
@@ -200,7 +250,7 @@ private:
         z = hn::BitCast(d, hn::InterleaveLower(pairs, z01, z23));
     }
 
-    HWY_INLINE static void transposeRows(const double (&rows)[2][2][Count], int lane, Vector<double>& x,
+    HWY_INLINE static void transposeRows(const double (&rows)[2][2][kRow], int lane, Vector<double>& x,
                                          Vector<double>& y, Vector<double>& z)
     {
         const Lanes<double> d;
@@ -209,6 +259,7 @@ private:
         y = hn::InterleaveUpper(d, xy0, xy1);
         z = hn::InterleaveLower(d, hn::Load(d, rows[1][0] + lane), hn::Load(d, rows[1][1] + lane));
     }
+#endif
 };
 
 /// Calls stage(block, lane, slot) and then compute(block, lane, slot) for every vector of elements of the blocks; each
@@ -287,6 +338,5 @@ HWY_INLINE void storeCorners(const Matrix<Real>& f, CornerBlock<Real>& out, int 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
 HWY_AFTER_NAMESPACE();
-#endif  // HWY_TARGET != HWY_SCALAR
 
 #endif

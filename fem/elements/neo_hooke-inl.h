@@ -12,7 +12,6 @@
 #include "fem/elements/element_math-inl.h"
 #include "fem/elements/neo_hooke.h"
 
-#if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
@@ -77,13 +76,6 @@ HWY_INLINE Symmetric<Real> chosen(Mask first, const Symmetric<Real>& A, const Sy
 {
     return {hn::IfThenElse(first, A.xx, B.xx), hn::IfThenElse(first, A.yy, B.yy), hn::IfThenElse(first, A.zz, B.zz),
             hn::IfThenElse(first, A.yz, B.yz), hn::IfThenElse(first, A.xz, B.xz), hn::IfThenElse(first, A.xy, B.xy)};
-}
-
-template <class Real>
-HWY_INLINE Symmetric<Real> withoutDoubling(const Symmetric<Real>& E)
-{
-    const Vector<Real> half = number<Real>(0.5);
-    return {E.xx, E.yy, E.zz, half * E.yz, half * E.xz, half * E.xy};
 }
 
 /// passElements() for elements of either law: stores forces and gradients, and returns the response. Elements are those
@@ -153,6 +145,5 @@ HWY_INLINE Vector<Real> contraction(const Symmetric<Real>& C, const Matrix<Real>
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
 HWY_AFTER_NAMESPACE();
-#endif  // HWY_TARGET != HWY_SCALAR
 
 #endif

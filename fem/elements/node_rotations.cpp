@@ -12,30 +12,16 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/robust_average.h"
+#include "fem/elements/robust_rotations.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-#if HWY_TARGET == HWY_SCALAR
-
-// For processors without vector instructions.
-void averageOverNodes(const NodeRotations& rotations, Range nodes)
-{
-    reference::averageRotations(rotations, nodes);
-}
-
-Mat3 sumOverBlocks(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)
-{
-    return reference::sumRotations(nodes, rotation, blocks);
-}
-
-#else
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D4 = hn::FixedTag<float, 4>;  // one quaternion
+using D4 = hn::CappedTag<float, 4>;  // one quaternion, or a component of it
 
 /// Row-major rotation matrix of a quaternion of squared length n > 0.
 HWY_INLINE NodeRotation rotationOf(const float* q, float n)
@@ -55,22 +41,25 @@ HWY_INLINE NodeRotation averageAt(const NodeRotations& rotations, int node)
     const int* corner = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node];
     const int* end = rotations.m_nodes->m_corner.data() + rotations.m_nodes->m_start[node + 1];
     if (corner == end) return {};  // a loose node
-    // Two partial sums make additions independent.
-    hn::Vec<D4> sums[2] = {hn::Zero(d), hn::Zero(d)};
-    const auto add = [&](int k, int e)
-    {
-        const float V = rotations.m_nodes->m_volume[e];
-        sums[k] = hn::MulAdd(hn::Set(d, V), hn::Load(d, &rotations.m_rotation[e].x), sums[k]);
-    };
-    for (; corner + 1 < end; corner += 2)
-    {
-        add(0, NodeCorners::element(corner[0]));
-        add(1, NodeCorners::element(corner[1]));
-    }
-    if (corner < end) add(0, NodeCorners::element(corner[0]));
-
     HWY_ALIGN float q[4];
-    hn::Store(hn::Add(sums[0], sums[1]), d, q);
+    for (int c = 0; c < 4; c += static_cast<int>(hn::MaxLanes(d)))
+    {
+        // Two partial sums make additions independent.
+        hn::Vec<D4> sums[2] = {hn::Zero(d), hn::Zero(d)};
+        const auto add = [&](int k, int e)
+        {
+            const float V = rotations.m_nodes->m_volume[e];
+            sums[k] = hn::MulAdd(hn::Set(d, V), hn::Load(d, &rotations.m_rotation[e].x + c), sums[k]);
+        };
+        const int* k = corner;
+        for (; k + 1 < end; k += 2)
+        {
+            add(0, NodeCorners::element(k[0]));
+            add(1, NodeCorners::element(k[1]));
+        }
+        if (k < end) add(0, NodeCorners::element(k[0]));
+        hn::Store(hn::Add(sums[0], sums[1]), d, q + c);
+    }
     const float squaredLength = (q[0] * q[0] + q[2] * q[2]) + (q[1] * q[1] + q[3] * q[3]);
     if (!(squaredLength >= minSquaredLength(*rotations.m_nodes, node))) return robustAverage(rotations, node);
     return rotationOf(q, squaredLength);
@@ -115,7 +104,6 @@ Mat3 sumOverBlocks(const NodeCorners& nodes, const Quaternion* rotation, Range b
              {2 * (xz - yw), 2 * (yz + xw), ww - xx - yy + zz}}};
 }
 
-#endif
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
 HWY_AFTER_NAMESPACE();
@@ -124,18 +112,9 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(averageOverNodes);
-HWY_EXPORT(sumOverBlocks);
-
-void averageRotations(const NodeRotations& rotations, Range nodes)
-{
-    HWY_DYNAMIC_DISPATCH(averageOverNodes)(rotations, nodes);
-}
-
-Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)
-{
-    return HWY_DYNAMIC_DISPATCH(sumOverBlocks)(nodes, rotation, blocks);
-}
+BULLETFEM_EXPORT(averageOverNodes, void averageRotations(const NodeRotations& rotations, Range nodes), rotations, nodes)
+BULLETFEM_EXPORT(sumOverBlocks, Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks),
+                 nodes, rotation, blocks)
 
 }  // namespace bullet_fem
 #endif

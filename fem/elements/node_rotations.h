@@ -31,11 +31,4 @@ void averageRotations(const NodeRotations& rotations, Range nodes);
 /// blocks, last Q).
 Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks);
 
-/// Reference implementation in plain C++, for tests of the kernels.
-namespace reference
-{
-void averageRotations(const NodeRotations& rotations, Range nodes);
-Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks);
-}  // namespace reference
-
 }  // namespace bullet_fem

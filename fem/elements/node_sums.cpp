@@ -21,16 +21,6 @@ namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-#if HWY_TARGET == HWY_SCALAR
-
-// For processors without vector instructions.
-template <class Real>
-void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
-{
-    reference::sumCorners(sums, nodes);
-}
-
-#else
 namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<double, 4>;
@@ -81,17 +71,7 @@ HWY_INLINE void sumOverNodes(const NodeSums<Real>& sums, Range nodes)
     }
 }
 
-#endif
-
-void nodeSumsFloat(const NodeSums<float>& sums, Range nodes)
-{
-    sumOverNodes(sums, nodes);
-}
-
-void nodeSumsDouble(const NodeSums<double>& sums, Range nodes)
-{
-    sumOverNodes(sums, nodes);
-}
+BULLETFEM_KERNEL(sumOverNodes, NodeSums)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
@@ -101,20 +81,7 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(nodeSumsFloat);
-HWY_EXPORT(nodeSumsDouble);
-
-template <>
-void sumCorners(const NodeSums<float>& sums, Range nodes)
-{
-    HWY_DYNAMIC_DISPATCH(nodeSumsFloat)(sums, nodes);
-}
-
-template <>
-void sumCorners(const NodeSums<double>& sums, Range nodes)
-{
-    HWY_DYNAMIC_DISPATCH(nodeSumsDouble)(sums, nodes);
-}
+BULLETFEM_EXPORT_KERNEL(sumOverNodes, NodeSums, sumCorners)
 
 }  // namespace bullet_fem
 #endif

@@ -24,11 +24,4 @@ struct NodeSums
 template <class Real>
 void sumCorners(const NodeSums<Real>& sums, Range nodes);
 
-/// Reference implementation in plain C++, for tests of the kernel.
-namespace reference
-{
-template <class Real>
-void sumCorners(const NodeSums<Real>& sums, Range nodes);
-}
-
 }  // namespace bullet_fem

@@ -53,13 +53,4 @@ void runOrthotropicPass(const OrthotropicPass<Real>& pass, Range blocks);
 template <class Real>
 void runOrthotropicProduct(const OrthotropicProduct<Real>& product, Range blocks);
 
-/// Reference implementations in plain C++, for tests of the kernels.
-namespace reference
-{
-template <class Real>
-void runOrthotropicPass(const OrthotropicPass<Real>& pass, Range blocks);
-template <class Real>
-void runOrthotropicProduct(const OrthotropicProduct<Real>& product, Range blocks);
-}  // namespace reference
-
 }  // namespace bullet_fem

@@ -119,19 +119,4 @@ void findForces(const SmoothedPass<Real>& pass, Range blocks);
 template <class Real>
 void findForces(const SmoothedProduct<Real>& product, Range blocks);
 
-/// Reference implementations in plain C++, for tests of the kernels.
-namespace reference
-{
-template <class Real>
-void findStrains(const SmoothedPass<Real>& pass, Range pieces);
-template <class Real>
-void findStrains(const SmoothedProduct<Real>& product, Range pieces);
-template <class Real>
-void averageStrains(const EdgeSmoothing<Real>& smoothing, const SmoothedStrain<Real>& strain, Range domains);
-template <class Real>
-void findForces(const SmoothedPass<Real>& pass, Range blocks);
-template <class Real>
-void findForces(const SmoothedProduct<Real>& product, Range blocks);
-}  // namespace reference
-
 }  // namespace bullet_fem

@@ -3,7 +3,7 @@
 //
 // Compiled once for every instruction set; selected at run time. Every sum has the order of panel_kernels.cpp: along a
 // row of M column by column; along a column of the panel one partial sum for every kN-th row, added as in sumOfLanes().
-#include "fem/factor/batch_panel_kernels.h"
+#include "fem/factor/panel_kernels.h"
 
 #include <cstddef>
 
@@ -157,18 +157,10 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(ForwardPanelSide);
-HWY_EXPORT(BackwardPanelSide);
-
-void forwardPanelBatch(const Panel& panel, float* y, float* scratch)
-{
-    HWY_DYNAMIC_DISPATCH(ForwardPanelSide)(panel, y, scratch);
-}
-
-void backwardPanelBatch(const Panel& panel, float* y, float* scratch)
-{
-    HWY_DYNAMIC_DISPATCH(BackwardPanelSide)(panel, y, scratch);
-}
+BULLETFEM_EXPORT(ForwardPanelSide, void forwardPanelBatch(const Panel& panel, float* y, float* scratch), panel, y,
+                 scratch)
+BULLETFEM_EXPORT(BackwardPanelSide, void backwardPanelBatch(const Panel& panel, float* y, float* scratch), panel, y,
+                 scratch)
 
 }  // namespace bullet_fem
 #endif

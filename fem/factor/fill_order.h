@@ -17,6 +17,29 @@ struct SparsePattern
     std::vector<int> m_rowIndex;
 };
 
+/// The graph of a pattern, both triangles without the diagonal: the neighbours of row i from m_start[i] to m_start[i +
+/// 1].
+template <class Index>
+struct PatternGraph
+{
+    explicit PatternGraph(const SparsePattern& pattern) : m_start(pattern.m_size + 1, 0)
+    {
+        const auto forEdges = [&pattern](const auto& visit)
+        {
+            for (int c = 0; c < pattern.m_size; ++c)
+                for (int k = pattern.m_columnStart[c]; k < pattern.m_columnStart[c + 1]; ++k)
+                    if (pattern.m_rowIndex[k] != c) visit(pattern.m_rowIndex[k], c);
+        };
+        forEdges([this](int a, int b) { ++m_start[a + 1], ++m_start[b + 1]; });
+        for (int i = 0; i < pattern.m_size; ++i) m_start[i + 1] += m_start[i];
+        m_neighbour.resize(m_start.back());
+        std::vector<Index> end(m_start.begin(), m_start.end() - 1);
+        forEdges([&](int a, int b) { m_neighbour[end[a]++] = b, m_neighbour[end[b]++] = a; });
+    }
+
+    std::vector<Index> m_start, m_neighbour;
+};
+
 /// The libraries that fillReducingOrder() uses, with their versions: "AMD x.y.z, METIS x.y.z"; Eigen replaces AMD, and
 /// METIS is missing, if a build or program lacks them.
 std::string orderingBackend();

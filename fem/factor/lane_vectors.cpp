@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Compiled once for every instruction set; selected at run time.
-#include "fem/factor/lane_vectors.h"
+#include "fem/factor/lane_gradients.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -103,8 +103,9 @@ void AdvanceLanes(const LaneVectors& v, const LaneNumbers& step)
         }
 }
 
-void DotLanes(const LaneVectors& v, LaneNumbers& sum)
+LaneNumbers DotLanes(const LaneVectors& v)
 {
+    LaneNumbers sum;
     const D d;
     SingleNumbers part;
     for (int i = 0; i < v.m_nodes; ++i)
@@ -120,6 +121,7 @@ void DotLanes(const LaneVectors& v, LaneNumbers& sum)
         if (i % kNodesOfSum == kNodesOfSum - 1) moveSums(part, sum);
     }
     moveSums(part, sum);
+    return sum;
 }
 
 /// Multiplies a row of the lower half, and its transpose. Rows are processed from the last one on, so that q_i has all
@@ -147,8 +149,9 @@ HWY_INLINE V multiplyRow(const RestMatrix& A, int row, const LaneVectors& v, std
     return dot3(sum, p, q);
 }
 
-void MultiplyRows(const RestMatrix& A, const LaneVectors& v, LaneNumbers& sum)
+LaneNumbers MultiplyRows(const RestMatrix& A, const LaneVectors& v)
 {
+    LaneNumbers sum;
     const D d;
     SingleNumbers part;
     for (int i = v.m_nodes - 1; i >= 0; --i)
@@ -157,6 +160,7 @@ void MultiplyRows(const RestMatrix& A, const LaneVectors& v, LaneNumbers& sum)
             hn::Store(multiplyRow(A, i, v, h, hn::Load(d, part.m + h)), d, part.m + h);
         if (i % kNodesOfSum == 0) moveSums(part, sum);
     }
+    return sum;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -167,34 +171,10 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-HWY_EXPORT(TurnLanes);
-HWY_EXPORT(AdvanceLanes);
-HWY_EXPORT(DotLanes);
-HWY_EXPORT(MultiplyRows);
-
-void turnLanes(const LaneVectors& v, const LaneNumbers& beta)
-{
-    HWY_DYNAMIC_DISPATCH(TurnLanes)(v, beta);
-}
-
-void advanceLanes(const LaneVectors& v, const LaneNumbers& step)
-{
-    HWY_DYNAMIC_DISPATCH(AdvanceLanes)(v, step);
-}
-
-LaneNumbers dotLanes(const LaneVectors& v)
-{
-    LaneNumbers sum;
-    HWY_DYNAMIC_DISPATCH(DotLanes)(v, sum);
-    return sum;
-}
-
-LaneNumbers multiplyLanes(const RestMatrix& A, const LaneVectors& v)
-{
-    LaneNumbers sum;
-    HWY_DYNAMIC_DISPATCH(MultiplyRows)(A, v, sum);
-    return sum;
-}
+BULLETFEM_EXPORT(TurnLanes, void turnLanes(const LaneVectors& v, const LaneNumbers& beta), v, beta)
+BULLETFEM_EXPORT(AdvanceLanes, void advanceLanes(const LaneVectors& v, const LaneNumbers& step), v, step)
+BULLETFEM_EXPORT(DotLanes, LaneNumbers dotLanes(const LaneVectors& v), v)
+BULLETFEM_EXPORT(MultiplyRows, LaneNumbers multiplyLanes(const RestMatrix& A, const LaneVectors& v), A, v)
 
 }  // namespace bullet_fem
 #endif

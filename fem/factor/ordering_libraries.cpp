@@ -21,31 +21,6 @@ namespace bullet_fem
 namespace
 {
 
-#ifdef BULLETFEM_WITH_METIS
-// Both triangles without the diagonal, METIS's input format.
-struct MetisGraph
-{
-    std::vector<idx_t> m_start, m_neighbour;
-
-    explicit MetisGraph(const SparsePattern& pattern) : m_start(pattern.m_size + 1, 0)
-    {
-        forEdges(pattern, [this](int a, int b) { ++m_start[a + 1], ++m_start[b + 1]; });
-        for (int i = 0; i < pattern.m_size; ++i) m_start[i + 1] += m_start[i];
-        m_neighbour.resize(m_start.back());
-        std::vector<idx_t> end(m_start.begin(), m_start.end() - 1);
-        forEdges(pattern, [&](int a, int b) { m_neighbour[end[a]++] = b, m_neighbour[end[b]++] = a; });
-    }
-
-    template <class Visit>
-    static void forEdges(const SparsePattern& pattern, const Visit& visit)
-    {
-        for (int c = 0; c < pattern.m_size; ++c)
-            for (int k = pattern.m_columnStart[c]; k < pattern.m_columnStart[c + 1]; ++k)
-                if (pattern.m_rowIndex[k] != c) visit(pattern.m_rowIndex[k], c);
-    }
-};
-#endif
-
 [[maybe_unused]] [[noreturn]] void failed(const char* library, int status)
 {
     throw std::runtime_error(std::string("fill-reducing order: ") + library + " failed with status " +
@@ -97,7 +72,7 @@ std::string metisVersion()
 
 std::vector<int> metisOrder(const SparsePattern& pattern)
 {
-    MetisGraph graph(pattern);
+    PatternGraph<idx_t> graph(pattern);  // METIS's input format
     if (graph.m_neighbour.empty()) return {};
     idx_t count = pattern.m_size;
     std::vector<idx_t> order(count), place(count);

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "fem/common/chunks.h"
-#include "fem/factor/batch_panel_kernels.h"
-#include "fem/factor/isotropic_panel_kernels.h"
+#include "fem/factor/panel_kernels.h"
 
 namespace bullet_fem
 {

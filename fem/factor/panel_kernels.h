@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cstddef>
+
 namespace bullet_fem
 {
 
@@ -28,5 +30,30 @@ void forwardPanel(const Panel& panel, float* y, float* scratch);
 void backwardPanel(const Panel& panel, float* y, float* scratch);
 void forwardPanelLanes(const Panel& panel, float* y, float* scratch);
 void backwardPanelLanes(const Panel& panel, float* y, float* scratch);
+
+/// forwardPanel() and backwardPanel() for kPanelLanes right-hand sides, interleaved as in forwardPanelLanes(). Each
+/// result is bitwise equal to that of the single right-hand side, so the summation order differs from
+/// forwardPanelLanes(), at a small cost. `scratch` has batchScratchOf(panel) entries. Uses the widest vectors that the
+/// processor has.
+void forwardPanelBatch(const Panel& panel, float* y, float* scratch);
+void backwardPanelBatch(const Panel& panel, float* y, float* scratch);
+
+/// Scratch entries: the rows, and partial sums of the columns of a chunk, of all right-hand sides.
+inline std::size_t batchScratchOf(const Panel& panel)
+{
+    const std::size_t rows = panel.m_rowsBelow + panel.m_columns, parts = kPanelColumns * kPanelLanes / 2;
+    return kPanelLanes * (rows + parts);
+}
+
+constexpr int kIsotropicColumns = 4;  ///< columns of a chunk of an isotropic panel; the last chunk has 1 to 4
+
+/// The steps of a solve with an isotropic panel, which has one row and one column a node, applied to each of the node's
+/// three directions: Panel's m_columns and m_rowsBelow count nodes, and a chunk has kIsotropicColumns columns. y has 3
+/// entries per node, or 3 x 16 interleaved. `scratch` has 48 blocks() entries (times 16), aligned to 64 bytes. Uses the
+/// widest vectors that the processor has.
+void forwardIsotropic(const Panel& panel, float* y, float* scratch);
+void backwardIsotropic(const Panel& panel, float* y, float* scratch);
+void forwardIsotropicLanes(const Panel& panel, float* y, float* scratch);
+void backwardIsotropicLanes(const Panel& panel, float* y, float* scratch);
 
 }  // namespace bullet_fem

@@ -9,7 +9,6 @@
 #include "fem/factor/block_matrix.h"
 #include "fem/factor/fill_order.h"
 #include "fem/factor/packed_factor.h"
-#include "fem/factor/rest_matrix.h"
 
 namespace bullet_fem
 {

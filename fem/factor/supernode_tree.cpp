@@ -24,10 +24,10 @@ constexpr double kBytesPerRow = 48;
 // where narrow supernodes take p^2 / 2, and arithmetic grows alike. A smaller maximum gains little and adds calls.
 constexpr int kWidestSupernode = 64;
 
-// The graph of the pattern, both triangles without the diagonal, and an elimination order of its rows.
-struct OrderedGraph
+// The graph of the pattern, and an elimination order of its rows.
+struct OrderedGraph : PatternGraph<int>
 {
-    std::vector<int> m_start, m_neighbour;
+    using PatternGraph::PatternGraph;
     std::vector<int> m_order, m_position;  // inverse to each other
 
     int size() const { return static_cast<int>(m_order.size()); }
@@ -67,21 +67,9 @@ std::vector<int> inversePermutation(const std::vector<int>& order, int size)
 
 OrderedGraph orderedGraph(const SparsePattern& pattern, const std::vector<int>& order)
 {
-    OrderedGraph graph;
+    OrderedGraph graph(pattern);
     graph.m_order = order;
     graph.m_position = inversePermutation(order, pattern.m_size);
-    graph.m_start.assign(pattern.m_size + 1, 0);
-    const auto forEdges = [&pattern](const auto& visit)
-    {
-        for (int c = 0; c < pattern.m_size; ++c)
-            for (int k = pattern.m_columnStart[c]; k < pattern.m_columnStart[c + 1]; ++k)
-                if (pattern.m_rowIndex[k] != c) visit(pattern.m_rowIndex[k], c);
-    };
-    forEdges([&](int a, int b) { ++graph.m_start[a + 1], ++graph.m_start[b + 1]; });
-    for (int i = 0; i < pattern.m_size; ++i) graph.m_start[i + 1] += graph.m_start[i];
-    graph.m_neighbour.resize(graph.m_start.back());
-    std::vector<int> end(graph.m_start.begin(), graph.m_start.end() - 1);
-    forEdges([&](int a, int b) { graph.m_neighbour[end[a]++] = b, graph.m_neighbour[end[b]++] = a; });
     return graph;
 }
 

@@ -13,6 +13,7 @@
 
 #include "fem/common/disjoint_sets.h"
 #include "fem/elements/model_elements.h"
+#include "fem/mesh/element_faces.h"
 
 namespace bullet_fem
 {
@@ -69,36 +70,10 @@ int sideTo(const std::array<int, 4>& neighbours, int element)
     return static_cast<int>(std::find(neighbours.begin(), neighbours.end(), element) - neighbours.begin());
 }
 
-std::vector<std::array<int, 4>> elementsBehindSides(const TetMesh& mesh)
-{
-    using Side = std::pair<Triangle, std::pair<int, int>>;
-    std::vector<Side> sides;
-    sides.reserve(4 * mesh.tets().size());
-    for (int e = 0; e < mesh.tetCount(); ++e)
-        for (int a = 0; a < 4; ++a)
-        {
-            const Tet& tet = mesh.tets()[e];
-            Triangle nodes = {tet[(a + 1) % 4], tet[(a + 2) % 4], tet[(a + 3) % 4]};
-            std::sort(nodes.begin(), nodes.end());
-            sides.push_back({nodes, {e, a}});
-        }
-    std::sort(sides.begin(), sides.end());
-    std::vector<std::array<int, 4>> behind(mesh.tets().size(), {-1, -1, -1, -1});
-    for (std::size_t k = 1; k < sides.size(); ++k)
-    {
-        if (sides[k - 1].first != sides[k].first) continue;
-        const auto [e, a] = sides[k - 1].second;
-        const auto [f, b] = sides[k].second;
-        behind[e][a] = f;
-        behind[f][b] = e;
-    }
-    return behind;
-}
-
 }  // namespace
 
 Fracture::Fracture(std::shared_ptr<const RestShape> shape)
-    : m_shape(std::move(shape)), m_mesh(m_shape->m_mesh), m_neighbour(elementsBehindSides(m_mesh))
+    : m_shape(std::move(shape)), m_mesh(m_shape->m_mesh), m_neighbour(elementsBehindFaces(m_mesh.tets()))
 {
     const TetMesh& mesh = m_mesh;
     m_first.resize(mesh.restPositions().size() + 1);

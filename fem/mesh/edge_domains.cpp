@@ -6,14 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "fem/mesh/element_faces.h"
+
 namespace bullet_fem
 {
-namespace
-{
-
-constexpr int kEdgeCorners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-}  // namespace
 
 EdgeDomains::EdgeDomains(const TetMesh& mesh, const ElementMaterials& materials, const std::vector<int>& group,
                          const std::vector<double>& volume)
@@ -33,7 +29,7 @@ EdgeDomains::EdgeDomains(const TetMesh& mesh, const ElementMaterials& materials,
         for (int k = 0; k < 6 && m_share[e] > 0; ++k)
         {
             const Tet& tet = mesh.tets()[e];
-            const auto [low, high] = std::minmax(tet[kEdgeCorners[k][0]], tet[kEdgeCorners[k][1]]);
+            const auto [low, high] = std::minmax(tet[kElementEdges[k][0]], tet[kElementEdges[k][1]]);
             sides.push_back({low, high, group.empty() ? 0 : group[e], e, k});
         }
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.place() < b.place(); });

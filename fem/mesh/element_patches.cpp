@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bullet_fem/fem/mesh/element_materials.h"
+#include "fem/mesh/element_faces.h"
 
 namespace bullet_fem
 {
@@ -19,7 +20,6 @@ namespace
 constexpr int kMinWanted = 4;    // minimum patch size; smaller ones are merged into a neighbour with room
 constexpr double kAlike = 1e-3;  // relative tolerance of equal compactness
 constexpr int kNone = -1;
-constexpr int kCornerPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 /// The groups of elements that may share a patch.
 struct PatchGroups
@@ -35,30 +35,10 @@ struct PatchGroups
 /// Neighbours across the faces of every element; kNone on the boundary and at another group.
 std::vector<std::array<int, 4>> neighboursOf(const std::vector<Tet>& tets, const PatchGroups& groups)
 {
-    struct Side
-    {
-        Triangle m_nodes;
-        int m_tet, m_opposite;
-    };
-    std::vector<Side> sides;
-    sides.reserve(4 * tets.size());
+    std::vector<std::array<int, 4>> neighbours = elementsBehindFaces(tets);
     for (std::size_t e = 0; e < tets.size(); ++e)
-        for (int a = 0; a < 4; ++a)
-        {
-            Triangle nodes = {tets[e][(a + 1) % 4], tets[e][(a + 2) % 4], tets[e][(a + 3) % 4]};
-            std::sort(nodes.begin(), nodes.end());
-            sides.push_back({nodes, static_cast<int>(e), a});
-        }
-    std::sort(sides.begin(), sides.end(),
-              [](const Side& f, const Side& g)
-              { return f.m_nodes != g.m_nodes ? f.m_nodes < g.m_nodes : f.m_tet < g.m_tet; });
-    std::vector<std::array<int, 4>> neighbours(tets.size(), {kNone, kNone, kNone, kNone});
-    for (std::size_t k = 0; k + 1 < sides.size(); ++k)
-        if (sides[k].m_nodes == sides[k + 1].m_nodes && groups.joins(sides[k].m_tet, sides[k + 1].m_tet))
-        {
-            neighbours[sides[k].m_tet][sides[k].m_opposite] = sides[k + 1].m_tet;
-            neighbours[sides[k + 1].m_tet][sides[k + 1].m_opposite] = sides[k].m_tet;
-        }
+        for (int& f : neighbours[e])
+            if (f != kNone && !groups.joins(static_cast<int>(e), f)) f = kNone;
     return neighbours;
 }
 
@@ -92,7 +72,7 @@ private:
         std::vector<End> ends;
         ends.reserve(6 * mesh.tets().size());
         for (int e = 0; e < mesh.tetCount(); ++e)
-            for (const auto& pair : kCornerPairs)
+            for (const auto& pair : kElementEdges)
             {
                 const auto [low, high] = std::minmax(mesh.tets()[e][pair[0]], mesh.tets()[e][pair[1]]);
                 ends.push_back({low, high, e});

@@ -10,6 +10,7 @@
 
 #include "fem/common/disjoint_sets.h"
 #include "fem/common/message.h"
+#include "fem/mesh/element_faces.h"
 
 namespace bullet_fem
 {
@@ -22,7 +23,6 @@ constexpr double kSliverQuality = 1e-3;  // in this measure a regular tetrahedro
 
 /// The face opposite each node of a positively oriented element, counter-clockwise seen from outside.
 constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 std::string nodesOf(const Tet& tet)
 {
@@ -73,7 +73,7 @@ void refuseLooseNodes(const std::vector<unsigned char>& loose)
 double signedQuality(const std::vector<Vec3>& X, const Tet& tet)
 {
     double longest = 0;
-    for (const auto& edge : kEdges)
+    for (const auto& edge : kElementEdges)
     {
         const Vec3 d = X[tet[edge[0]]] - X[tet[edge[1]]];
         longest = std::max({longest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
@@ -115,31 +115,6 @@ Triangle sideOf(const Tet& tet, int a)
     return {tet[kFaces[a][0]], tet[kFaces[a][1]], tet[kFaces[a][2]]};
 }
 
-struct Face
-{
-    Triangle m_sorted;  // its nodes, ascending
-    int m_tet;
-    int m_opposite;  // index in the element of the node opposite the face
-};
-
-/// The faces of all elements, sorted so that equal ones are adjacent.
-std::vector<Face> sortedFaces(const std::vector<Tet>& tets)
-{
-    std::vector<Face> faces;
-    faces.reserve(4 * tets.size());
-    for (std::size_t e = 0; e < tets.size(); ++e)
-        for (int a = 0; a < 4; ++a)
-        {
-            Triangle nodes = sideOf(tets[e], a);
-            std::sort(nodes.begin(), nodes.end());
-            faces.push_back({nodes, static_cast<int>(e), a});
-        }
-    std::sort(faces.begin(), faces.end(),
-              [](const Face& f, const Face& g)
-              { return f.m_sorted != g.m_sorted ? f.m_sorted < g.m_sorted : f.m_tet < g.m_tet; });
-    return faces;
-}
-
 /// Rejects elements with four equal nodes, in any order; returns if there are none.
 void refuseRepeatedElements(const std::vector<Tet>& tets)
 {
@@ -172,12 +147,12 @@ void refuseRepeatedElements(const std::vector<Tet>& tets)
 /// The faces with a single element, in the order of their elements, oriented outward.
 std::vector<Triangle> boundaryFaces(const std::vector<Tet>& tets)
 {
-    const std::vector<Face> faces = sortedFaces(tets);
+    const std::vector<ElementFace> faces = sortedFaces(tets);
     std::vector<char> onBoundary(4 * tets.size(), 0);
     for (std::size_t f = 0, next = 0; f < faces.size(); f = next)
     {
-        while (next < faces.size() && faces[next].m_sorted == faces[f].m_sorted) ++next;
-        const Triangle& n = faces[f].m_sorted;
+        while (next < faces.size() && faces[next].m_nodes == faces[f].m_nodes) ++next;
+        const Triangle& n = faces[f].m_nodes;
         const auto apex = [&](std::size_t face) { return tets[faces[face].m_tet][faces[face].m_opposite]; };
         if (next - f > 2 || (next - f == 2 && apex(f) == apex(f + 1))) refuseRepeatedElements(tets);
         if (next - f > 2)
@@ -212,7 +187,7 @@ double meanEdge(const std::vector<Vec3>& X, const std::vector<Tet>& tets)
 {
     double sum = 0;
     for (const Tet& tet : tets)
-        for (const auto& edge : kEdges) sum += norm(X[tet[edge[0]]] - X[tet[edge[1]]]);
+        for (const auto& edge : kElementEdges) sum += norm(X[tet[edge[0]]] - X[tet[edge[1]]]);
     return sum / (6.0 * static_cast<double>(tets.size()));
 }
 

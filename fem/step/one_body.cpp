@@ -329,15 +329,17 @@ public:
     void keepUnresolved() {}
 };
 
-// Calls solve(settings) with the settings' threads, or without them if the body is too small to share.
-template <class Solve>
-void onThreads(const Body& body, const StepSettings& given, const Solve& solve)
+// Calls solve(one) on the settings' threads, or without them if the body is too small to share.
+template <class One, class Job, class Solve>
+SolveReport solveWith(const Job& job, const Solve& solve)
 {
-    const StepSettings settings = sharedSettings(*body.m_model, given);
+    const StepSettings settings = sharedSettings(*job.m_body->m_model, job.m_settings);
+    One one(job, settings);
     if (settings.m_threads)
-        settings.m_threads->gather([&] { solve(settings); });
+        settings.m_threads->gather([&] { solve(one); });
     else
-        solve(settings);
+        solve(one);
+    return one.report();
 }
 
 }  // namespace
@@ -350,35 +352,17 @@ StepSettings sharedSettings(const BodyModel& model, StepSettings settings)
 
 void solveAlone(FreeMotion& motion)
 {
-    onThreads(*motion.m_body, motion.m_settings,
-              [&](const StepSettings& settings)
-              {
-                  OneFreeMotion one(motion, settings);
-                  solveFreeMotion(one);
-                  motion.m_report = one.report();
-              });
+    motion.m_report = solveWith<OneFreeMotion>(motion, [](OneFreeMotion& one) { solveFreeMotion(one); });
 }
 
 void solveAlone(ImpulseResponse& response)
 {
-    onThreads(*response.m_body, response.m_settings,
-              [&](const StepSettings& settings)
-              {
-                  OneResponse one(response, settings);
-                  respondToImpulses(one);
-                  response.m_report = one.report();
-              });
+    response.m_report = solveWith<OneResponse>(response, [](OneResponse& one) { respondToImpulses(one); });
 }
 
 void solveAlone(StepEnd& end)
 {
-    if (!end.m_needsSmoothing) return;
-    onThreads(*end.m_body, end.m_settings,
-              [&](const StepSettings& settings)
-              {
-                  OneSmoothing one(end, settings);
-                  findUnresolved(one);
-              });
+    if (end.m_needsSmoothing) solveWith<OneSmoothing>(end, [](OneSmoothing& one) { findUnresolved(one); });
 }
 
 }  // namespace bullet_fem

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bullet_fem/fem/common/threads.h"
+#include "bullet_fem/fem/step/reactions.h"
 #include "fem/batch/batched_solve.h"
 #include "fem/body/inelastic_strain.h"
 #include "fem/body/step_coefficients.h"
@@ -16,6 +17,7 @@
 #include "fem/solve/step_variation.h"
 #include "fem/solve/strain_increment.h"
 #include "fem/solve/warped_compliance.h"
+#include "fem/solve/warped_system.h"
 #include "fem/step/one_body.h"
 
 namespace bullet_fem
@@ -235,6 +237,20 @@ const std::vector<Vec3>& velocity(const Body& body)
 const std::vector<Vec3>& freeMeanVelocity(const Body& body)
 {
     return body.m_workspace.scratch().m_meanVelocity;
+}
+
+const std::vector<NodeReaction>* reactions(const Body& body)
+{
+    const StepScratch& scratch = body.m_workspace.scratch();
+    SupportReactions& found = scratch.m_reactions;
+    if (!found.isKnown(*body.m_model)) return nullptr;
+    if (!found.isFound())
+    {
+        found.product().resize(found.change().size());
+        WarpedSystem(body).applyUnconstrained(found.change(), found.product());
+        found.find(scratch.m_elements.m_scaledMass, body.m_loads);
+    }
+    return &found.reactions();
 }
 
 }  // namespace bullet_fem

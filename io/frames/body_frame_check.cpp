@@ -56,6 +56,21 @@ void checkNodeValues(const Blame& blame, const char* what, const char* many, con
     checkValues(blame, what, "vertex", values);
 }
 
+template <class Value>
+void checkTetCount(const Blame& blame, const char* many, const BodyFrame& body, const std::vector<Value>& values)
+{
+    if (!values.empty() && values.size() != body.m_tets.size())
+        blame(values.size(), " ", many, " for ", body.m_tets.size(), " tetrahedra; give as many, or none");
+}
+
+template <class Value>
+void checkTetValues(const Blame& blame, const char* what, const char* many, const BodyFrame& body,
+                    const std::vector<Value>& values)
+{
+    checkTetCount(blame, many, body, values);
+    checkValues(blame, what, "tetrahedron", values);
+}
+
 template <class Cell>
 void checkCells(const Blame& blame, const char* what, const std::vector<Cell>& cells, std::size_t vertices)
 {
@@ -86,19 +101,10 @@ void checkFrame(const char* caller, const std::vector<BodyFrame>& bodies)
         checkNodeValues(blame, "contact force", "contact forces", body, body.m_contactForce);
         checkNodeValues(blame, "reaction force", "reaction forces", body, body.m_reactionForce);
         checkNodeValues(blame, "stress", "stresses", body, body.m_nodeStress);
-        if (!body.m_tetStress.empty() && body.m_tetStress.size() != body.m_tets.size())
-            blame(body.m_tetStress.size(), " stresses for ", body.m_tets.size(), " tetrahedra; give as many, or none");
-        checkValues(blame, "stress", "tetrahedron", body.m_tetStress);
-        if (!body.m_tetPlasticStrain.empty() && body.m_tetPlasticStrain.size() != body.m_tets.size())
-            blame(body.m_tetPlasticStrain.size(), " plastic strains for ", body.m_tets.size(),
-                  " tetrahedra; give as many, or none");
-        checkValues(blame, "plastic strain", "tetrahedron", body.m_tetPlasticStrain);
-        if (!body.m_tetActivation.empty() && body.m_tetActivation.size() != body.m_tets.size())
-            blame(body.m_tetActivation.size(), " activations for ", body.m_tets.size(),
-                  " tetrahedra; give as many, or none");
-        checkValues(blame, "activation", "tetrahedron", body.m_tetActivation);
-        if (!body.m_tetRegion.empty() && body.m_tetRegion.size() != body.m_tets.size())
-            blame(body.m_tetRegion.size(), " regions for ", body.m_tets.size(), " tetrahedra; give as many, or none");
+        checkTetValues(blame, "stress", "stresses", body, body.m_tetStress);
+        checkTetValues(blame, "plastic strain", "plastic strains", body, body.m_tetPlasticStrain);
+        checkTetValues(blame, "activation", "activations", body, body.m_tetActivation);
+        checkTetCount(blame, "regions", body, body.m_tetRegion);
     }
 }
 

@@ -67,11 +67,13 @@ void skipValues(MeshScanner& scanner, const std::string& type, std::uint64_t cou
 void readDataArray(VtkFile& file, const std::string& name, const std::string& type, std::uint64_t components,
                    std::uint64_t tuples)
 {
-    const std::uint64_t most = 8 * std::uint64_t{file.scanner.left()};  // of bits
-    if (components > 0 && tuples > most / components) file.scanner.fail("an array is too long");
+    MeshScanner& scanner = file.scanner;
+    const std::uint64_t most = 8 * std::uint64_t{scanner.left()};  // of bits
+    if (components > 0 && tuples > most / components)
+        scanner.fail(message("an array of ", tuples, " x ", components, " values in ", scanner.left(), " bytes"));
     const bool areRegions = file.data == "CELL_DATA" && components == 1 && isVtkRegionName(name);
-    if (!areRegions || type == "STRING" || type == "BIT") return skipValues(file.scanner, type, components * tuples);
-    file.regions = readVtkDoubles(file, vtkNumberType(file.scanner, type), tuples, "a region");
+    if (!areRegions || type == "STRING" || type == "BIT") return skipValues(scanner, type, components * tuples);
+    file.regions = readVtkDoubles(file, vtkNumberType(scanner, type), tuples, "a region");
 }
 
 }  // namespace
@@ -132,22 +134,21 @@ void skipVtkMetadata(MeshScanner& scanner)
     }
 }
 
-void skipVtkField(MeshScanner& scanner)
+void readVtkField(VtkFile& file)
 {
+    MeshScanner& scanner = file.scanner;
     scanner.word("a field's name");
     const auto arrays = scanner.text<std::uint64_t>("a number of arrays");
     for (std::uint64_t a = 0; a < arrays; ++a)
     {
         if (vtkKeyword(scanner.peekWord()) == "METADATA") skipVtkMetadata(scanner);
-        if (vtkKeyword(scanner.word("an array's name")) == "NULL_ARRAY") continue;
+        const std::string name = printable(scanner.word("an array's name"));
+        if (vtkKeyword(name) == "NULL_ARRAY") continue;
         const auto components = scanner.text<std::uint64_t>("a number of components");
         const auto tuples = scanner.text<std::uint64_t>("a number of tuples");
         const std::string type = vtkKeyword(scanner.word("an array's type"));
         scanner.restOfLine();
-        const std::uint64_t most = 8 * std::uint64_t{scanner.left()};  // of bits
-        if (components > 0 && tuples > most / components)
-            scanner.fail(message("an array of ", tuples, " x ", components, " values in ", scanner.left(), " bytes"));
-        skipValues(scanner, type, components * tuples);
+        readDataArray(file, name, type, components, tuples);
     }
 }
 
@@ -175,20 +176,7 @@ void findVtkRegions(VtkFile& file)
             readDataArray(file, name, type, each, count);
         }
         else if (keyword == "FIELD")
-        {
-            scanner.word("a field's name");
-            const auto arrays = scanner.text<std::uint64_t>("a number of arrays");
-            for (std::uint64_t a = 0; a < arrays; ++a)
-            {
-                if (vtkKeyword(scanner.peekWord()) == "METADATA") skipVtkMetadata(scanner);
-                const std::string name = printable(scanner.word("an array's name"));
-                const auto components = scanner.text<std::uint64_t>("a number of components");
-                const auto tuples = scanner.text<std::uint64_t>("a number of tuples");
-                const std::string type = vtkKeyword(scanner.word("an array's type"));
-                scanner.restOfLine();
-                readDataArray(file, name, type, components, tuples);
-            }
-        }
+            readVtkField(file);
         else if (keyword == "METADATA")
             skipVtkMetadata(scanner);
         else

@@ -13,72 +13,59 @@ namespace bullet_fem
 namespace
 {
 
-struct VtkType
+// VTK's list (vtkCellType.h), with poly vertices, poly lines, strips and pixels, and cells of higher order.
+constexpr int kPoints[] = {1, 2};
+constexpr int kEdges[] = {3, 4, 21, 35, 68, 75};
+constexpr int kFaces[] = {5, 6, 7, 8, 9, 22, 23, 28, 30, 34, 36, 69, 70, 76, 77};
+
+struct RefusedType
 {
     int type;
-    CellKind kind;
-    const char* name;  // with its article, of refused ones
+    const char* name;  // with its article
 };
 
-/// VTK's list (vtkCellType.h).
-constexpr VtkType kTypes[] = {{0, CellKind::empty, ""},
-                              {1, CellKind::point, ""},
-                              {2, CellKind::point, ""},  // poly vertex
-                              {3, CellKind::edge, ""},
-                              {4, CellKind::edge, ""},  // poly line
-                              {5, CellKind::face, ""},
-                              {6, CellKind::face, ""},  // strip
-                              {7, CellKind::face, ""},
-                              {8, CellKind::face, ""},  // pixel
-                              {9, CellKind::face, ""},
-                              {kVtkTetrahedron, CellKind::tet, ""},
-                              {11, CellKind::refused, "a voxel"},
-                              {12, CellKind::refused, "a hexahedron"},
-                              {13, CellKind::refused, "a wedge"},
-                              {14, CellKind::refused, "a pyramid"},
-                              {15, CellKind::refused, "a pentagonal prism"},
-                              {16, CellKind::refused, "a hexagonal prism"},
-                              {21, CellKind::edge, ""},  // lines and polygons of second and third order
-                              {22, CellKind::face, ""},
-                              {23, CellKind::face, ""},
-                              {24, CellKind::refused, "a quadratic tetrahedron (10 nodes)"},
-                              {25, CellKind::refused, "a quadratic hexahedron"},
-                              {26, CellKind::refused, "a quadratic wedge"},
-                              {27, CellKind::refused, "a quadratic pyramid"},
-                              {28, CellKind::face, ""},
-                              {29, CellKind::refused, "a triquadratic hexahedron"},
-                              {30, CellKind::face, ""},
-                              {31, CellKind::refused, "a quadratic linear wedge"},
-                              {32, CellKind::refused, "a biquadratic quadratic wedge"},
-                              {33, CellKind::refused, "a biquadratic quadratic hexahedron"},
-                              {34, CellKind::face, ""},
-                              {35, CellKind::edge, ""},
-                              {36, CellKind::face, ""},
-                              {37, CellKind::refused, "a triquadratic pyramid"},
-                              {41, CellKind::refused, "a convex point set"},
-                              {42, CellKind::refused, "a polyhedron"},
-                              {68, CellKind::edge, ""},  // Lagrange
-                              {69, CellKind::face, ""},
-                              {70, CellKind::face, ""},
-                              {71, CellKind::refused, "a Lagrange tetrahedron"},
-                              {72, CellKind::refused, "a Lagrange hexahedron"},
-                              {73, CellKind::refused, "a Lagrange wedge"},
-                              {74, CellKind::refused, "a Lagrange pyramid"},
-                              {75, CellKind::edge, ""},  // Bezier
-                              {76, CellKind::face, ""},
-                              {77, CellKind::face, ""},
-                              {78, CellKind::refused, "a Bezier tetrahedron"},
-                              {79, CellKind::refused, "a Bezier hexahedron"},
-                              {80, CellKind::refused, "a Bezier wedge"},
-                              {81, CellKind::refused, "a Bezier pyramid"}};
+constexpr RefusedType kRefused[] = {{11, "a voxel"},
+                                    {12, "a hexahedron"},
+                                    {13, "a wedge"},
+                                    {14, "a pyramid"},
+                                    {15, "a pentagonal prism"},
+                                    {16, "a hexagonal prism"},
+                                    {24, "a quadratic tetrahedron (10 nodes)"},
+                                    {25, "a quadratic hexahedron"},
+                                    {26, "a quadratic wedge"},
+                                    {27, "a quadratic pyramid"},
+                                    {29, "a triquadratic hexahedron"},
+                                    {31, "a quadratic linear wedge"},
+                                    {32, "a biquadratic quadratic wedge"},
+                                    {33, "a biquadratic quadratic hexahedron"},
+                                    {37, "a triquadratic pyramid"},
+                                    {41, "a convex point set"},
+                                    {42, "a polyhedron"},
+                                    {71, "a Lagrange tetrahedron"},
+                                    {72, "a Lagrange hexahedron"},
+                                    {73, "a Lagrange wedge"},
+                                    {74, "a Lagrange pyramid"},
+                                    {78, "a Bezier tetrahedron"},
+                                    {79, "a Bezier hexahedron"},
+                                    {80, "a Bezier wedge"},
+                                    {81, "a Bezier pyramid"}};
+
+template <std::size_t Size>
+bool isIn(std::int64_t type, const int (&types)[Size])
+{
+    return std::find(types, types + Size, type) != types + Size;
+}
 
 /// Treatment of cells of this type; throws, naming the type, if they are refused.
 CellKind kindOf(std::int64_t type, std::size_t cell)
 {
-    for (const VtkType& known : kTypes)
-        if (known.type == type && known.kind != CellKind::refused) return known.kind;
+    if (type == 0) return CellKind::empty;
+    if (type == kVtkTetrahedron) return CellKind::tet;
+    if (isIn(type, kPoints)) return CellKind::point;
+    if (isIn(type, kEdges)) return CellKind::edge;
+    if (isIn(type, kFaces)) return CellKind::face;
     std::string name = message("VTK's cell type ", type);
-    for (const VtkType& known : kTypes)
+    for (const RefusedType& known : kRefused)
         if (known.type == type) name = message(known.name, ", VTK's cell type ", type, ",");
     throw std::runtime_error(message("cell ", cell, ": ", refusalOf(name)));
 }

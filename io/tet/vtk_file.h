@@ -41,8 +41,8 @@ std::vector<std::int64_t> readVtkIntegers(VtkFile& file, NumberType type, std::u
 
 /// Skips METADATA, which ends with an empty line or the file.
 void skipVtkMetadata(MeshScanner& scanner);
-/// Skips FIELD.
-void skipVtkField(MeshScanner& scanner);
+/// Reads FIELD; keeps the cells' regions after CELL_DATA.
+void readVtkField(VtkFile& file);
 /// Reads the cells' regions in the SCALARS and FIELD arrays of points and cells, up to the first item of another kind.
 void findVtkRegions(VtkFile& file);
 

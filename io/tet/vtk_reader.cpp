@@ -181,7 +181,7 @@ bool readSection(VtkFile& file)
     else if (keyword == "CELL_TYPES")
         readCellTypes(file);
     else if (keyword == "FIELD")
-        skipVtkField(file.scanner);
+        readVtkField(file);
     else if (keyword == "METADATA")
         skipVtkMetadata(file.scanner);
     else

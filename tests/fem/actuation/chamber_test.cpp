@@ -341,7 +341,7 @@ TEST(ChamberErrors, RejectSurfacesOnDifferentComponents)
     const TetMesh two(X, tets);
     Chamber both;
     both.m_triangles = two.surface();
-    expectRejected([&] { both.validate(two); }, {"in different pieces of the body"});
+    expectRejected([&] { both.validate(two); }, {"in different components of the body"});
 }
 
 }  // namespace

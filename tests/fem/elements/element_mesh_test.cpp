@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "fem/scenes/element_case.h"
+#include "fem/scenes/reference_elements.h"
 
 namespace bullet_fem
 {

@@ -8,6 +8,7 @@
 #include "fem/common/rotation.h"
 #include "fem/elements/node_rotations.h"
 #include "fem/scenes/element_case.h"
+#include "fem/scenes/reference_elements.h"
 
 namespace bullet_fem
 {

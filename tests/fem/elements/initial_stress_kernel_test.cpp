@@ -3,8 +3,9 @@
 //
 // The initial stress in an element pass: against its energy, its torque balance, and plain C++.
 #include "fem/common/rotation.h"
-#include "fem/elements/element_strains.h"
+#include "fem/elements/element_pass.h"
 #include "fem/scenes/element_case.h"
+#include "fem/scenes/reference_elements.h"
 
 namespace bullet_fem
 {

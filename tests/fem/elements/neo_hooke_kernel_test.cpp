@@ -5,6 +5,7 @@
 #include "fem/common/rotation.h"
 #include "fem/elements/neo_hooke.h"
 #include "fem/scenes/element_case.h"
+#include "fem/scenes/reference_elements.h"
 
 namespace bullet_fem
 {

@@ -7,6 +7,7 @@
 #include "fem/common/rotation.h"
 #include "fem/scenes/element_case.h"
 #include "fem/scenes/lattice_box.h"
+#include "fem/scenes/reference_elements.h"
 #include "fem/scenes/smoothed_stiffness.h"
 
 namespace bullet_fem

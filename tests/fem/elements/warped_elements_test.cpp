@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <tuple>
 
-#include "fem/elements/positive_part.h"
+#include "benchmarks/reference/positive_part.h"
 #include "fem/scenes/dense_system.h"
 #include "fem/scenes/elasticity_scenes.h"
 #include "fem/scenes/test_constants.h"

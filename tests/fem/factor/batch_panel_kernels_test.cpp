@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/factor/batch_panel_kernels.h"
+#include "fem/factor/panel_kernels.h"
 
 #include <gtest/gtest.h>
 

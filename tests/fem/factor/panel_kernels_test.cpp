@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "fem/common/aligned_array.h"
-#include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 #include "fem/scenes/reference_kernels.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "fem/factor/dense_kernels.h"
-#include "fem/factor/isotropic_panel_kernels.h"
 #include "fem/factor/panel_kernels.h"
 
 namespace bullet_fem

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-//
-// The node kernels in plain C++, in double precision: reference for tests of the vector kernels.
+#include "fem/elements/robust_rotations.h"
+
 #include <cmath>
-#include <cstddef>
 
 #include "fem/common/rotation.h"
-#include "fem/elements/node_sums.h"
-#include "fem/elements/robust_average.h"
 
 namespace bullet_fem
 {
@@ -58,42 +55,19 @@ NodeRotation robustAverage(const NodeRotations& rotations, int node)
     const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z + sum.w * sum.w);
     return length >= kAlignedShareOfPlainSum * volume ? rounded(toMatrix(sum)) : polarOfSum(rotations, node);
 }
-
-namespace reference
-{
-
-void averageRotations(const NodeRotations& rotations, Range nodes)
-{
-    for (int i = nodes.m_begin; i < nodes.m_end; ++i) rotations.m_out[i] = robustAverage(rotations, i);
-}
-
-Mat3 sumRotations(const NodeCorners& nodes, const Quaternion* rotation, Range blocks)
-{
-    Mat3 sum;
-    for (int e = blocks.m_begin * kLanes; e < blocks.m_end * kLanes; ++e)
-        sum += nodes.m_volume[e] * toMatrix(rotation[e]);
-    return sum;
-}
-
 template <class Real>
-void sumCorners(const NodeSums<Real>& sums, Range nodes)
+BasicQuaternion<Real> robustPolar(const Real (*F)[kLanes], int lane, const BasicQuaternion<Real>& guess)
 {
-    const NodeCorners& corners = *sums.m_nodes;
-    for (int i = nodes.m_begin; i < nodes.m_end; ++i)
-    {
-        Vec3 sum;
-        for (int k = corners.m_start[i]; k < corners.m_start[i + 1]; ++k)
-        {
-            const Real* v = &sums.m_corners->m_vector[0][0][0] + 4 * static_cast<std::ptrdiff_t>(corners.m_corner[k]);
-            sum += Vec3{v[0], v[1], v[2]};
-        }
-        const PaddedVec3 p = sums.m_scale ? sums.m_p[i] : PaddedVec3();
-        sums.m_out[i] = sum + (sums.m_scale ? sums.m_scale[i] * Vec3{p.x, p.y, p.z} : sums.m_out[i]);
-    }
+    Mat3 A;
+    for (int k = 0; k < 9; ++k) A(k / 3, k % 3) = F[k][lane];
+    if (!std::isfinite(squaredNorm(A))) return guess;
+    const BasicQuaternion<double> q = toQuaternion(polarRotation(A, toMatrix(guess)));
+    const double s = q.x * guess.x + q.y * guess.y + q.z * guess.z + q.w * guess.w < 0 ? -1 : 1;
+    return {static_cast<Real>(s * q.x), static_cast<Real>(s * q.y), static_cast<Real>(s * q.z),
+            static_cast<Real>(s * q.w)};
 }
 
-template void sumCorners(const NodeSums<float>&, Range);
-template void sumCorners(const NodeSums<double>&, Range);
+template BasicQuaternion<float> robustPolar(const float (*)[kLanes], int, const BasicQuaternion<float>&);
+template BasicQuaternion<double> robustPolar(const double (*)[kLanes], int, const BasicQuaternion<double>&);
 
-}  // namespace reference
 }  // namespace bullet_fem

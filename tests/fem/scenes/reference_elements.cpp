@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-//
-// The element kernels in plain C++, one element at a time in double precision: reference for tests of the vector
-// kernels.
+#include "fem/scenes/reference_elements.h"
+
 #include <array>
 #include <cmath>
 
-#include "fem/common/rotation.h"
-#include "fem/elements/element_product.h"
+#include "benchmarks/reference/positive_part.h"
+#include "bullet_fem/fem/common/symmetric.h"
 #include "fem/elements/neo_hooke.h"
-#include "fem/elements/positive_part.h"
-#include "fem/elements/reference_math.h"
+#include "fem/scenes/reference_math.h"
 
 namespace bullet_fem
 {
@@ -155,10 +153,41 @@ void runElementProduct(const ElementProduct<Real>& product, Range pieces)
         }
 }
 
+template <class Real>
+void runElementStrains(const ElementStrains<Real>& strains, Range blocks)
+{
+    for (int b = blocks.m_begin; b < blocks.m_end; ++b)
+        for (int lane = 0; lane < kLanes; ++lane)
+        {
+            const ElementBlock<Real>& block = strains.m_elements->m_blocks[b];
+            Mat3 DmInverse, Dm;
+            for (int k = 0; k < 9; ++k)
+            {
+                DmInverse(k / 3, k % 3) = block.m_DmInverse[k][lane];
+                Dm(k / 3, k % 3) = block.m_Dm[k][lane];
+            }
+            const std::int32_t* node = block.m_node[lane];
+            const auto edge = [&](int a)
+            {
+                const PaddedVec3 &to = strains.m_x[node[a]], &from = strains.m_x[node[0]];
+                return Vec3{to.x - from.x, to.y - from.y, to.z - from.z};
+            };
+            const Mat3 Ds = Mat3::fromColumns(edge(1), edge(2), edge(3));
+            Quaternion& q = strains.m_rotation[b * kLanes + lane];
+            const Mat3 R = polarRotation(Ds * DmInverse, toMatrix(q));
+            q = rounded(toQuaternion(R));
+            const SymmetricTensor E = symmetricPart(transposeTimes(R, (Ds - R * Dm) * DmInverse));
+            const double entries[6] = {E.xx, E.yy, E.zz, E.yz, E.xz, E.xy};
+            for (int k = 0; k < 6; ++k) strains.m_strain[b].m_entry[k][lane] = static_cast<Real>(entries[k]);
+        }
+}
+
 template void runElementPass(const ElementPass<float>&, Range);
 template void runElementPass(const ElementPass<double>&, Range);
 template void runElementProduct(const ElementProduct<float>&, Range);
 template void runElementProduct(const ElementProduct<double>&, Range);
+template void runElementStrains(const ElementStrains<float>&, Range);
+template void runElementStrains(const ElementStrains<double>&, Range);
 
 }  // namespace reference
 }  // namespace bullet_fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/elements/positive_part.h"
+#include "benchmarks/reference/positive_part.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-//
-// The kernels of orthotropic elements in plain C++, one element at a time in double precision: reference for tests of
-// the vector kernels.
-#include "fem/elements/orthotropic_elements.h"
-#include "fem/elements/positive_part.h"
-#include "fem/elements/reference_math.h"
+#include "benchmarks/reference/positive_part.h"
+#include "fem/scenes/reference_elements.h"
+#include "fem/scenes/reference_math.h"
 
 namespace bullet_fem
 {

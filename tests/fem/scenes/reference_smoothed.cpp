@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-//
-// The kernels of smoothed elements in plain C++, in double precision: reference for tests of the vector kernels.
 #include <cstddef>
 
+#include "benchmarks/reference/positive_part.h"
 #include "bullet_fem/fem/common/symmetric.h"
-#include "fem/common/rotation.h"
-#include "fem/elements/positive_part.h"
-#include "fem/elements/reference_math.h"
-#include "fem/elements/smoothed_elements.h"
+#include "fem/scenes/reference_elements.h"
+#include "fem/scenes/reference_math.h"
 
 namespace bullet_fem
 {

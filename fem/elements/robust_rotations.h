@@ -20,4 +20,10 @@ inline float minSquaredLength(const NodeCorners& nodes, int node)
 /// to the first element's rotation.
 NodeRotation robustAverage(const NodeRotations& rotations, int node);
 
+/// The polar rotation of one of kLanes matrices (row-major, a lane each) by polarRotation(); `guess` if the matrix is
+/// not finite. Among the two quaternions it returns the one in the hemisphere of `guess`, so that signs persist from
+/// step to step.
+template <class Real>
+BasicQuaternion<Real> robustPolar(const Real (*F)[kLanes], int lane, const BasicQuaternion<Real>& guess);
+
 }  // namespace bullet_fem
