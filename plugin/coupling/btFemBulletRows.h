@@ -15,10 +15,10 @@ struct btFemBulletRows
     btMultiBodyJacobianData* m_linkData = nullptr;            ///< null: a solver without multibodies
     std::array<btMultiBodyConstraintArray*, 5> m_links = {};  ///< of a solver with multibodies
 
-    /// Writes their impulses [N s].
+    /// Writes the impulses of all rows [N s] to `noted`. Allocates when there are more than ever.
     void note(std::vector<btScalar>& noted) const;
 
-    /// Gives them these impulses; the velocities of solver bodies and multibodies follow, as in Bullet's own rows.
+    /// Gives the rows impulses of note(), and changes the velocities of solver bodies and multibodies accordingly.
     void restoreBest(const std::vector<btScalar>& noted) const;
 
 private:

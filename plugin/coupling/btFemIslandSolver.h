@@ -13,8 +13,8 @@
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/stages/btFemContactGroup.h"
 
-/// Settings of Bullet's rigid solver for islands with FEM bodies. What rests starts from the last step's impulses,
-/// friction included: soft bodies carry far, and the rigid rows must not begin anew every time.
+/// Settings of Bullet's rigid solver for islands with FEM bodies: full warm start, of friction as well. Soft bodies
+/// spread impulses over many rows, which would not converge from zero within a step.
 inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
 {
     btContactSolverInfo settings = info;
@@ -24,8 +24,8 @@ inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
     return settings;
 }
 
-/// Solves islands with FEM bodies for btFemConstraintSolver and its kin, which befriend it: Bullet's rows and those of
-/// contacts and joints in rounds.
+/// Solves islands with FEM bodies for the three constraint solvers, which are its friends: Bullet's rows and those of
+/// soft contacts and joints in outer iterations.
 class btFemIslandSolver
 {
 public:
@@ -35,9 +35,9 @@ public:
     /// True while islands with FEM bodies are solved.
     bool hasFem() const { return m_group != nullptr; }
 
-    /// Solves a batch as the world hands it over: by solve(batch, settings), Bullet's own, at once where it has no FEM
-    /// bodies. Else its islands without them as if they were alone, for Bullet hands small ones over together, and then
-    /// those with them, while hasFem(). `linksToo`: Bullet's rows include those of multibodies.
+    /// Solves a batch of islands of Bullet's world. Without FEM bodies solve(batch, settings), Bullet's solver, gets
+    /// all of it. Otherwise it gets the islands without FEM bodies (Bullet joins small islands in one batch), then the
+    /// others, while hasFem() is true. `linksToo`: Bullet's rows include those of multibodies.
     template <class Solve>
     void solveBatch(const btFemBatch& all, const btContactSolverInfo& info, bool linksToo, const Solve& solve)
     {
@@ -58,9 +58,9 @@ public:
         m_group = nullptr;
     }
 
-    /// Rounds of sweeps over all rows, those of Bullet's `solver` first, then the soft ones; after every round the soft
-    /// bodies' true response. sweep(iteration) sweeps Bullet's rows once, and returns the square of the largest change
-    /// of a row's velocity. Call while hasFem().
+    /// Outer iterations: sweeps over Bullet's rows of `solver` and the soft rows in turn, then the true response of the
+    /// soft bodies. sweep(iteration) sweeps Bullet's rows once and returns the square of the largest change of a row's
+    /// velocity [m2/s2]. Call while hasFem().
     template <class Solver, class Sweep>
     void solveTogether(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep)
     {
@@ -111,5 +111,5 @@ private:
     btFemSoftBodySolver& m_fem;
     btFemIslands m_islands;
     btFemContactGroup* m_group = nullptr;  // FEM bodies of the islands being solved; null if there are none
-    std::vector<btScalar> m_noted;         // impulses of Bullet's rows in the best round so far [N s]
+    std::vector<btScalar> m_noted;         // impulses of Bullet's rows in the best outer iteration [N s]
 };
