@@ -63,7 +63,7 @@ TEST_P(FilesForBullet, AreReadByCreateFromVtkFile)
 }
 
 INSTANTIATE_TEST_SUITE_P(Regions, FilesForBullet, ::testing::Bool(),
-                         [](const auto& info) { return info.param ? "With" : "Without"; });
+                         [](const auto& instance) { return instance.param ? "With" : "Without"; });
 
 }  // namespace
 }  // namespace bullet_fem
