@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// The step of a single body: the widths of step_stages.h for one.
+// The step of a single body: implements the stages of step_stages.h.
 #pragma once
 
 #include "bullet_fem/fem/step/stepping.h"

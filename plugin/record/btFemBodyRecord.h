@@ -101,7 +101,7 @@ struct btFemStepWork
 {
     btFemStage m_stage = btFemStage::none;
     double m_lastStep = 0;        ///< [s]
-    bool m_isFinished = false;    ///< normals and speed are updated: see btFemWorldStep::finish
+    bool m_isFinished = false;    ///< normals and speed are updated: see btFemWorldStep::publish
     double m_factorMismatch = 1;  ///< factorMismatch() at the beginning of the step
     double m_staleness = 1;       ///< staleness() in the free motion
     btFemSleepRecord m_sleep;

@@ -47,7 +47,7 @@ void recordOverlap(FemSoftBody& fem, const btSoftBody& other);
 class ContactFinder
 {
 public:
-    /// Call after solveFreeMotion. Replaces fem.m_contacts and fem.m_origins by those of this step, at most
+    /// Call after solveFreeMotion. Replaces m_contacts and m_origins of fem.m_memory by those of this step, at most
     /// m_maxContacts, with m_soft.m_body = bodyIndex. Writes to `fem` only. Returns the search's flags.
     ContactSearchReport find(FemSoftBody& fem, int bodyIndex, const RigidSurroundings& around);
 

@@ -70,6 +70,7 @@ struct BULLETFEM_API Material
     double m_hardeningModulus = 0;
     /// Rate at which stress beyond sigma_y relaxes [1/s], in (0, inf]; infinity: at once.
     double m_plasticCreep = kInfinite;
+    /// Maximum sqrt(2/3 eps_p : eps_p) of the plastic strain eps_p [-], in (0, 0.9]; strain beyond it is elastic.
     double m_mostPlasticStrain = 0.5;
 
     /// Prony series. With terms, E and nu are the instantaneous ones, and the shear modulus is mu (1 - sum g_i (1 -
