@@ -14,7 +14,8 @@ BULLETFEM_API RigidProxy wholeMotion(const Body& body, int component);
 
 /// Adds a rigid motion, linear [m/s] and angular [rad/s] about a centre [m], to the velocities of a component's nodes,
 /// BodyState::m_v.
-BULLETFEM_API void addWholeMotion(Body& body, int component, const Vec3& center, const Vec3& linear, const Vec3& angular);
+BULLETFEM_API void addWholeMotion(Body& body, int component, const Vec3& center, const Vec3& linear,
+                                  const Vec3& angular);
 
 /// A rebound between two rigid proxies: one impulse at one point, which conserves both momenta, restores a share of
 /// their approach speed.
