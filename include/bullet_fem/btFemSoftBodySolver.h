@@ -81,8 +81,8 @@ public:
     /// masses. Throws std::invalid_argument on an invalid material or a body without (usable) tetrahedra.
     bool setMaterial(btSoftBody* body, const btFemMaterial& material, std::string* why = nullptr);
 
-    /// Sets one material per tetrahedron, in the order of m_tetras. Young's modulus, Poisson's ratio, density and mean
-    /// dilatation may differ; the two dampings must be equal in all, and a density of 0 must be that of all or none.
+    /// Sets one material per tetrahedron, in the order of m_tetras. Their two dampings must be equal, and a density of
+    /// 0 must be that of all or none; other values may differ as docs/materials.md (Several materials in a body) says.
     /// Throws std::invalid_argument, naming tetrahedron or region, as setMaterial does, and on a wrong number of
     /// materials or incompatible ones; the body is unchanged then.
     bool setMaterials(btSoftBody* body, const std::vector<btFemMaterial>& perTetrahedron, std::string* why = nullptr);
