@@ -101,7 +101,7 @@ void btFemContactGroup::collect(const Scope& scope)
     m_rigid.links().connect(m_rigid.rigidProxies(), m_problem.m_responses);
     const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
     if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
-        m_touchFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
+        m_rigidContactFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_cloth.append(m_step, m_problem);
     listOverlaps();

@@ -123,7 +123,7 @@ private:
     std::vector<btFemBodyRecord*> m_overlapping;
     bullet_fem::ContactSettings m_settings;
     bullet_fem::RigidSearch m_rigidSearch;
-    bullet_fem::RigidContactFinder m_touchFinder;
+    bullet_fem::RigidContactFinder m_rigidContactFinder;
     bullet_fem::TorsionalPatches m_torsionalPatches;
     bullet_fem::SoftPairSearch m_softPairs;
     bullet_fem::ClothContacts m_cloth;

@@ -58,14 +58,12 @@ void SoftSurface::prepareAll()
 {
     for (int t = 0; t < m_topology.triangleCount(); ++t) m_faceNormal[t] = normalOf(m_tree.corners(t));
     std::fill(m_preparedEdge.begin(), m_preparedEdge.end(), static_cast<unsigned char>(1));
-    m_prepared = true;
     for (int k = 0; k < m_topology.edgeCount(); ++k) m_bend[k] = bendOf(*this, k);
     m_ridges.update(m_tree, m_bend);
 }
 
 void SoftSurface::prepareNear(const std::vector<SurfaceTree::Nearby>& boxes)
 {
-    m_prepared = false;
     std::fill(m_faceNormal.begin(), m_faceNormal.end(), std::nullopt);
     std::fill(m_preparedEdge.begin(), m_preparedEdge.end(), static_cast<unsigned char>(0));
     m_nearNodes.clear();

@@ -74,8 +74,6 @@ public:
     void prepareAll();
     /// Prepares only the triangles near boxes, which must be valid for the whole step.
     void prepareNear(const std::vector<SurfaceTree::Nearby>& boxes);
-    /// True if the last preparation was prepareAll().
-    bool isPrepared() const { return m_prepared; }
 
     const SurfaceTopology& topology() const { return m_topology; }
     const SurfaceCurvature& curvature() const { return m_curvature; }  ///< at rest
@@ -110,8 +108,7 @@ private:
     std::vector<std::optional<Vec3>> m_faceNormal;  // of prepared triangles
     std::vector<double> m_bend;
     std::vector<unsigned char> m_preparedEdge;  // not 0: m_bend is valid
-    bool m_prepared = false;
-    std::vector<int> m_nearNodes;  // scratch: nodes of the tree
+    std::vector<int> m_nearNodes;               // scratch: nodes of the tree
 };
 
 // Unit normals of edges and vertices, outward. They are computed on demand, as few are near another body.
