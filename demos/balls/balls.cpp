@@ -85,7 +85,7 @@ int main(int argc, char** argv)
             demo.figure(name + "speed", velocityOf(*balls[k]).dot(down), "m/s");
             demo.check(name + "rebound / e^2 fall", rebound[k] / (kFall * restitution * restitution), least[k], 1.25,
                        "", 1);
-            demo.check(name + "speed / rolling", velocityOf(*balls[k]).dot(down) / rolling, 0.6, 1.02, "", 2);
+            demo.check(name + "speed / rolling", velocityOf(*balls[k]).dot(down) / rolling, 0.55, 1.02, "", 2);
         }
     };
     return demo.run(argc, argv, scene);

@@ -32,21 +32,15 @@ void ContinueLanes(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int 
                   [&](std::size_t at, int) { hn::Store(loadOne(a + at) * two - loadOne(b + at), D(), out + at); });
 }
 
-/// Stores v; returns |v|^2.
-HWY_INLINE V storeMeasured(const V3& v, double* to)
+void AddLanes(ConstBodyVectors b, BodyVectors a, int nodes)
 {
-    store3(v, to);
-    return dot(v, v);
+    forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) + loadOne(b + at), D(), a + at); });
 }
 
-PerBatch AddLanes(ConstBodyVectors b, BodyVectors a, int nodes)
+void ScaleVectors(double factor, ConstBodyVectors a, BodyVectors out, int nodes)
 {
-    return sumOverNodes(nodes,
-                        [&](int node, int lane)
-                        {
-                            const std::size_t at = place(node, lane);
-                            return storeMeasured(load3(a + at) + load3(b + at), a + at);
-                        });
+    const V s = hn::Set(D(), factor);
+    forEachNumber(nodes, [&](std::size_t at, int) { hn::Store(loadOne(a + at) * s, D(), out + at); });
 }
 
 HWY_INLINE V3 choose(hn::Mask<D> yes, const V3& a, const V3& b)
@@ -125,61 +119,53 @@ PerBatch AdvanceAlong(const BatchRecurrence& v, const PerBatch& step)
                         });
 }
 
-PerBatch AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
+void AddForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b)
 {
     const V h = hn::Set(D(), step);
-    return sumOverNodes(inertia.m_nodes,
-                        [&](int node, int lane)
-                        {
-                            const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
-                            const std::size_t at = place(node, lane);
-                            const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
-                            return storeMeasured((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
-                        });
+    forEachNode(inertia.m_nodes,
+                [&](int node, int lane)
+                {
+                    const V alphaMass = valuesOf(alpha, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+                    const std::size_t at = place(node, lane);
+                    const V3 damped = load3(b + at) - load3(v + at) * alphaMass;
+                    store3((damped + takeSum(inertia.m_sums, node, lane)) * h, b + at);
+                });
 }
 
-PerBatch SubtractSums(const BatchInertia& inertia, double share, BodyVectors b)
+void SubtractSums(const BatchInertia& inertia, double share, BodyVectors b)
 {
     const V s = hn::Set(D(), share);
-    return sumOverNodes(inertia.m_nodes,
-                        [&](int node, int lane)
-                        {
-                            const std::size_t at = place(node, lane);
-                            return storeMeasured(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
-                        });
+    forEachNode(inertia.m_nodes,
+                [&](int node, int lane)
+                {
+                    const std::size_t at = place(node, lane);
+                    store3(load3(b + at) - takeSum(inertia.m_sums, node, lane) * s, b + at);
+                });
 }
 
-/// Computes and stores A p at a node.
-HWY_INLINE V3 applyAt(const BatchInertia& inertia, const PerBatch& factor, const V3& p, BodyVectors Ap, int node,
-                      int lane)
+void AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
 {
-    const V scaledMass = valuesOf(factor, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
-    const V3 sum = takeSum(inertia.m_sums, node, lane);
-    const V3 product = {hn::MulAdd(scaledMass, p.x, sum.x), hn::MulAdd(scaledMass, p.y, sum.y),
-                        hn::MulAdd(scaledMass, p.z, sum.z)};
-    store3(product, Ap + place(node, lane));
-    return product;
+    forEachNode(inertia.m_nodes,
+                [&](int node, int lane)
+                {
+                    const V3 pi = load3(p + place(node, lane));
+                    const V scaledMass = valuesOf(factor, lane) * loadOne(inertia.m_mass + massPlace(node, lane));
+                    const V3 sum = takeSum(inertia.m_sums, node, lane);
+                    store3({hn::MulAdd(scaledMass, pi.x, sum.x), hn::MulAdd(scaledMass, pi.y, sum.y),
+                            hn::MulAdd(scaledMass, pi.z, sum.z)},
+                           Ap + place(node, lane));
+                });
 }
 
-PerBatch AddInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap)
-{
-    return sumOverNodes(inertia.m_nodes,
-                        [&](int node, int lane)
-                        {
-                            const V3 pi = load3(p + place(node, lane));
-                            return dot(pi, applyAt(inertia, factor, pi, Ap, node, lane));
-                        });
-}
-
-BatchGuessMeasure MeasureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess)
+BatchGuessMeasure MeasureGuess(const BatchGuess& guess)
 {
     BatchGuessMeasure out;
-    sumsOverNodes<4>(inertia.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
+    sumsOverNodes<4>(guess.m_nodes, {&out.m_xx, &out.m_bx, &out.m_xAx, &out.m_residual},
                      [&](int node, int lane)
                      {
                          const std::size_t at = place(node, lane);
                          const V3 x = load3(guess.m_x + at), b = load3(guess.m_b + at);
-                         const V3 Ax = applyAt(inertia, factor, x, guess.m_Ax, node, lane), r = b - Ax;
+                         const V3 Ax = load3(guess.m_Ax + at), r = b - Ax;
                          return Terms<4>{{dot(x, x), dot(b, x), dot(x, Ax), dot(r, r)}};
                      });
     return out;
@@ -197,7 +183,9 @@ BULLETFEM_EXPORT(SubtractLanes, void subtract(ConstBodyVectors a, ConstBodyVecto
                  out, nodes)
 BULLETFEM_EXPORT(ContinueLanes, void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes), a,
                  b, out, nodes)
-BULLETFEM_EXPORT(AddLanes, PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes), b, a, nodes)
+BULLETFEM_EXPORT(AddLanes, void addVectors(ConstBodyVectors b, BodyVectors a, int nodes), b, a, nodes)
+BULLETFEM_EXPORT(ScaleVectors, void scaleVectors(double factor, ConstBodyVectors a, BodyVectors out, int nodes), factor,
+                 a, out, nodes)
 BULLETFEM_EXPORT(SubtractProduct, PerBatch subtractProduct(const BatchRecurrence& v), v)
 BULLETFEM_EXPORT(ClearOthers, void clearOthers(const PerBatch& kept, BodyVectors a, int nodes), kept, a, nodes)
 BULLETFEM_EXPORT(ScaleGuess, PerBatch scaleGuess(const BatchRecurrence& v, const PerBatch& scale), v, scale)
@@ -205,19 +193,16 @@ BULLETFEM_EXPORT(TurnDirection, void turnDirection(const BatchRecurrence& v, Con
                  v, z, beta)
 BULLETFEM_EXPORT(AdvanceAlong, PerBatch advanceAlong(const BatchRecurrence& v, const PerBatch& step), v, step)
 BULLETFEM_EXPORT(AddForces,
-                 PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v,
-                                    BodyVectors b),
+                 void addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v,
+                                BodyVectors b),
                  inertia, alpha, step, v, b)
-BULLETFEM_EXPORT(SubtractSums, PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b), inertia,
+BULLETFEM_EXPORT(SubtractSums, void subtractSums(const BatchInertia& inertia, double share, BodyVectors b), inertia,
                  share, b)
 BULLETFEM_EXPORT(AddInertia,
-                 PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p,
-                                     BodyVectors Ap),
+                 void addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p,
+                                 BodyVectors Ap),
                  inertia, factor, p, Ap)
-BULLETFEM_EXPORT(MeasureGuess,
-                 BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor,
-                                                const BatchGuess& guess),
-                 inertia, factor, guess)
+BULLETFEM_EXPORT(MeasureGuess, BatchGuessMeasure measureGuess(const BatchGuess& guess), guess)
 
 }  // namespace bullet_fem
 #endif

@@ -9,6 +9,7 @@
 #include "fem/body/batch_width.h"
 #include "fem/body/rigid_momentum.h"
 #include "fem/elements/element_blocks.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -20,8 +21,8 @@ using ConstBodyVectors = const double*;
 /// subtract: out = a - b; extrapolate: out = 2 a - b.
 void subtract(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
 void extrapolate(ConstBodyVectors a, ConstBodyVectors b, BodyVectors out, int nodes);
-/// a += b; returns |a|^2, summed over nodes in the order of the single body's dot().
-PerBatch addAndMeasure(ConstBodyVectors b, BodyVectors a, int nodes);
+/// a += b.
+void addVectors(ConstBodyVectors b, BodyVectors a, int nodes);
 
 /// The vectors of the conjugate gradient recurrence; only bodies with m_active 1 are updated, others (0) keep theirs.
 struct BatchRecurrence
@@ -52,24 +53,24 @@ struct BatchInertia
     double* m_sums;        ///< [node][2][3][body], two sums a node; reading them resets them to zero
 };
 
-/// b = h (f - alpha m v + sums), where b contains f on entry; returns |b|^2.
-PerBatch addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b);
-/// b -= share sums; returns |b|^2.
-PerBatch subtractSums(const BatchInertia& inertia, double share, BodyVectors b);
-/// Ap = factor m p + sums; returns p . Ap.
-PerBatch addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap);
+/// b = h (f - alpha m v + sums), where b contains f on entry.
+void addForces(const BatchInertia& inertia, const PerBatch& alpha, double step, ConstBodyVectors v, BodyVectors b);
+/// b -= share sums.
+void subtractSums(const BatchInertia& inertia, double share, BodyVectors b);
+/// Ap = factor m p + sums.
+void addInertia(const BatchInertia& inertia, const PerBatch& factor, ConstBodyVectors p, BodyVectors Ap);
 
-/// An initial guess x and its right-hand side b; m_Ax receives A x.
+/// An initial guess x, its right-hand side b, and A x.
 struct BatchGuess
 {
-    ConstBodyVectors m_x, m_b;
-    BodyVectors m_Ax;
+    int m_nodes;
+    ConstBodyVectors m_x, m_b, m_Ax;
 };
 struct BatchGuessMeasure
 {
     PerBatch m_xx, m_bx, m_xAx, m_residual;  ///< x . x, b . x, x . A x, |b - A x|^2
 };
-BatchGuessMeasure measureGuess(const BatchInertia& inertia, const PerBatch& factor, const BatchGuess& guess);
+BatchGuessMeasure measureGuess(const BatchGuess& guess);
 
 // RigidMomentum for bodies side by side, each a single free connected component.
 
@@ -101,20 +102,20 @@ struct BatchLoads
 };
 PerBatch sumPrescribed(const BatchMasses& nodes, const BatchLoads& loads, BatchMomenta& pieces);
 
-/// w = ofVelocity v - ofTurning h w' x (w' x r), with the angular velocities w' of the prescribed momenta: see
-/// RigidMomentum::addTurning() and ViscousShares.
-struct BatchTurning
-{
-    ConstBodyVectors m_v;
-    double m_step, m_ofVelocity, m_ofTurning;
-};
-void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w);
+/// RigidMomentum::addInward() and addCentrifugal().
+void addInward(const BatchMasses& nodes, const BatchMomenta& pieces, double factor, BodyVectors change);
+void addCentrifugal(const BatchMasses& nodes, const BatchMomenta& pieces, double step, BodyVectors b);
+
+/// out = factor a.
+void scaleVectors(double factor, ConstBodyVectors a, BodyVectors out, int nodes);
 
 /// Adds share times the impulses [N s] to the prescribed momenta; returns the squared norm of the impulses.
 PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share, BatchMomenta& pieces);
 
-/// Adds to the increments dv [m/s] the rigid motion that gives v + dv the prescribed momentum.
-void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv);
+/// RigidMomentum::removeImpulses() and removeMotion(); return the products with . J and with . dv of the result, summed
+/// in the order of the single body's dot().
+PerBatch removeImpulses(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with, BodyVectors J);
+PerBatch removeMotion(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with, BodyVectors dv);
 
 /// v += dv, plus the rigid motion that gives every body its prescribed momentum; m_inertia is the inverse by now.
 void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v);
@@ -131,6 +132,12 @@ struct BatchNodeRotations
 };
 void averageRotations(const BatchNodeRotations& rotations);
 
+/// Velocities of rigid motions: linear [m/s] and angular [rad/s].
+struct BatchMotions
+{
+    PerBatch3 m_linear, m_angular;
+};
+
 /// The factor's vectors of bodies side by side, [position][3][body], and their node rotations.
 struct BatchWarp
 {
@@ -143,7 +150,11 @@ struct BatchWarp
 /// Factor vector <- R^T in / scale, with `scale` chosen to bring it to order one; returns the scale.
 PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in);
 
-/// out <- scale R (factor vector); returns in . out.
-PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out);
+/// out <- scale R (factor vector).
+void rotateOut(const BatchWarp& warp, const PerBatch& scale, BodyVectors out);
+
+/// RestModes::removeImpulses() and replaceMotions() of the factor vectors; `motions` as there, of the one component.
+void removeRestImpulses(const RestModes& modes, float* factorVector, BatchMotions& motions);
+void replaceRestMotions(const RestModes& modes, const BatchMotions& motions, float* factorVector);
 
 }  // namespace bullet_fem

@@ -122,58 +122,133 @@ HWY_INLINE V3 timesInertia(const BatchMomenta& pieces, int lane, const V3& vecto
     return {row(0), row(1), row(2)};
 }
 
-/// Adds to before(i, lane) the rigid motion that restores a body's momentum, and calls then(i, lane, velocity) with it.
-template <class Before, class Then>
-HWY_INLINE void restore(const BatchMasses& nodes, const BatchMomenta& pieces, const Before& before, const Then& then)
+/// A rigid motion of bodies: velocity of the centres, and angular velocity.
+struct Rigid
 {
-    for (int lane = 0; lane < kBatchWidth; lane += kN)
-    {
-        const V3 center = load(pieces.m_center, lane);
-        V3 linear = load(pieces.m_linear, lane), angular = load(pieces.m_angular, lane);
-        for (int i = 0; i < nodes.m_nodes; ++i)
-        {
-            const V3 p = before(i, lane) * massAt(nodes, i, lane);
-            linear = linear - p;
-            angular = angular - cross(positionAt(nodes, i, lane) - center, p);
-        }
-        linear = linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane));
-        const V3 spin = timesInertia(pieces, lane, angular);
-        for (int i = 0; i < nodes.m_nodes; ++i)
-        {
-            const V3 rigid = linear + cross(spin, positionAt(nodes, i, lane) - center);
-            then(i, lane, before(i, lane) + rigid);
-        }
-    }
+    V3 m_center, m_linear, m_angular;
+
+    HWY_INLINE V3 at(const V3& x) const { return m_linear + cross(m_angular, x - m_center); }
+};
+
+/// The rigid motion with these momenta about the bodies' centres.
+HWY_INLINE Rigid motionOf(const BatchMomenta& pieces, int lane, const V3& linear, const V3& angular)
+{
+    return {load(pieces.m_center, lane), linear * (hn::Set(D(), 1.0) / valuesOf(pieces.m_mass, lane)),
+            timesInertia(pieces, lane, angular)};
 }
 
-void FindViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning, BodyVectors w)
+/// The rigid motion that brings velocity(i) to these momenta.
+template <class Velocity>
+HWY_INLINE Rigid missingMotion(const BatchMasses& nodes, const BatchMomenta& pieces, int lane, V3 linear, V3 angular,
+                               const Velocity& velocity)
 {
+    const V3 center = load(pieces.m_center, lane);
+    for (int i = 0; i < nodes.m_nodes; ++i)
+    {
+        const V3 p = velocity(i) * massAt(nodes, i, lane);
+        linear = linear - p;
+        angular = angular - cross(positionAt(nodes, i, lane) - center, p);
+    }
+    return motionOf(pieces, lane, linear, angular);
+}
+
+HWY_INLINE V3 zero3()
+{
+    const V zero = hn::Zero(D());
+    return {zero, zero, zero};
+}
+
+/// Sums with . change(i, lane, motion) over the nodes, where change() stores its result.
+template <class Change>
+HWY_INLINE PerBatch sumChanged(int nodes, const Rigid (&motions)[kBatchWidth / kN], ConstBodyVectors with,
+                               const Change& change)
+{
+    return sumOverNodes(nodes,
+                        [&](int i, int lane)
+                        {
+                            const V3 changed = change(i, lane, motions[lane / kN]);
+                            return dot(load3(with + place(i, lane)), changed);
+                        });
+}
+
+void AddInward(const BatchMasses& nodes, const BatchMomenta& pieces, double factor, BodyVectors change)
+{
+    const V f = hn::Set(D(), factor);
     for (int lane = 0; lane < kBatchWidth; lane += kN)
     {
-        const V step = hn::Set(D(), turning.m_step), ofVelocity = hn::Set(D(), turning.m_ofVelocity),
-                ofTurning = hn::Set(D(), turning.m_ofTurning);
         const V3 center = load(pieces.m_center, lane), spin = timesInertia(pieces, lane, load(pieces.m_angular, lane));
         for (int i = 0; i < nodes.m_nodes; ++i)
         {
-            const V3 r = positionAt(nodes, i, lane) - center, turned = cross(spin, cross(spin, r)) * step;
-            store3(load3(turning.m_v + place(i, lane)) * ofVelocity - turned * ofTurning, w + place(i, lane));
+            const V3 inward = cross(spin, cross(spin, positionAt(nodes, i, lane) - center));
+            store3(load3(change + place(i, lane)) + inward * f, change + place(i, lane));
         }
     }
 }
 
-void CompleteIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v, BodyVectors dv)
+void AddCentrifugal(const BatchMasses& nodes, const BatchMomenta& pieces, double step, BodyVectors b)
 {
-    const auto before = [=](int i, int lane) { return load3(dv + place(i, lane)) + load3(v + place(i, lane)); };
-    const auto then = [=](int i, int lane, const V3& after)
-    { store3(after - load3(v + place(i, lane)), dv + place(i, lane)); };
-    restore(nodes, pieces, before, then);
+    const V h = hn::Set(D(), step);
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const V3 center = load(pieces.m_center, lane), spin = timesInertia(pieces, lane, load(pieces.m_angular, lane));
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 inward = cross(spin, cross(spin, positionAt(nodes, i, lane) - center));
+            store3(load3(b + place(i, lane)) - inward * (h * massAt(nodes, i, lane)), b + place(i, lane));
+        }
+    }
+}
+
+PerBatch RemoveImpulses(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with, BodyVectors J)
+{
+    Rigid motions[kBatchWidth / kN];
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const V3 center = load(pieces.m_center, lane);
+        V3 linear = zero3(), angular = linear;
+        for (int i = 0; i < nodes.m_nodes; ++i)
+        {
+            const V3 impulse = load3(J + place(i, lane));
+            linear = linear + impulse;
+            angular = angular + cross(positionAt(nodes, i, lane) - center, impulse);
+        }
+        motions[lane / kN] = motionOf(pieces, lane, linear, angular);
+    }
+    return sumChanged(nodes.m_nodes, motions, with,
+                      [&](int i, int lane, const Rigid& motion)
+                      {
+                          const V3 rigid = motion.at(positionAt(nodes, i, lane)) * massAt(nodes, i, lane);
+                          const V3 left = load3(J + place(i, lane)) - rigid;
+                          store3(left, J + place(i, lane));
+                          return left;
+                      });
+}
+
+PerBatch RemoveMotion(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with, BodyVectors dv)
+{
+    Rigid motions[kBatchWidth / kN];
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+        motions[lane / kN] =
+            missingMotion(nodes, pieces, lane, zero3(), zero3(), [&](int i) { return load3(dv + place(i, lane)); });
+    return sumChanged(nodes.m_nodes, motions, with,
+                      [&](int i, int lane, const Rigid& without)
+                      {
+                          const V3 left = load3(dv + place(i, lane)) + without.at(positionAt(nodes, i, lane));
+                          store3(left, dv + place(i, lane));
+                          return left;
+                      });
 }
 
 void AddWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv, BodyVectors v)
 {
-    const auto before = [=](int i, int lane) { return load3(v + place(i, lane)) + load3(dv + place(i, lane)); };
-    const auto then = [=](int i, int lane, const V3& after) { store3(after, v + place(i, lane)); };
-    restore(nodes, pieces, before, then);
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const auto velocity = [&](int i) { return load3(v + place(i, lane)) + load3(dv + place(i, lane)); };
+        const Rigid missing =
+            missingMotion(nodes, pieces, lane, load(pieces.m_linear, lane), load(pieces.m_angular, lane), velocity);
+        for (int i = 0; i < nodes.m_nodes; ++i)
+            store3(velocity(i) + missing.at(positionAt(nodes, i, lane)), v + place(i, lane));
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -192,14 +267,21 @@ BULLETFEM_EXPORT(AddImpulses,
                  PerBatch addImpulses(const BatchMasses& nodes, ConstBodyVectors impulses, const PerBatch& share,
                                       BatchMomenta& pieces),
                  nodes, impulses, share, pieces)
-BULLETFEM_EXPORT(FindViscous,
-                 void findViscous(const BatchMasses& nodes, const BatchMomenta& pieces, const BatchTurning& turning,
-                                  BodyVectors w),
-                 nodes, pieces, turning, w)
-BULLETFEM_EXPORT(CompleteIncrements,
-                 void completeIncrements(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors v,
-                                         BodyVectors dv),
-                 nodes, pieces, v, dv)
+BULLETFEM_EXPORT(AddInward,
+                 void addInward(const BatchMasses& nodes, const BatchMomenta& pieces, double factor,
+                                BodyVectors change),
+                 nodes, pieces, factor, change)
+BULLETFEM_EXPORT(AddCentrifugal,
+                 void addCentrifugal(const BatchMasses& nodes, const BatchMomenta& pieces, double step, BodyVectors b),
+                 nodes, pieces, step, b)
+BULLETFEM_EXPORT(RemoveImpulses,
+                 PerBatch removeImpulses(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with,
+                                         BodyVectors J),
+                 nodes, pieces, with, J)
+BULLETFEM_EXPORT(RemoveMotion,
+                 PerBatch removeMotion(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors with,
+                                       BodyVectors dv),
+                 nodes, pieces, with, dv)
 BULLETFEM_EXPORT(AddWithMomentum,
                  void addWithMomentum(const BatchMasses& nodes, const BatchMomenta& pieces, ConstBodyVectors dv,
                                       BodyVectors v),

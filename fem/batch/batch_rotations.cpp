@@ -128,20 +128,114 @@ PerBatch RotateIn(const BatchWarp& warp, ConstBodyVectors in)
     return largest;
 }
 
-PerBatch RotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out)
+void RotateOut(const BatchWarp& warp, const PerBatch& scale, BodyVectors out)
 {
-    return sumOverNodes(warp.m_nodes,
-                        [&](int node, int lane)
-                        {
-                            F R[9], q[3];
-                            loadFloats(DF(), warp.m_rotation, node, lane, R);
-                            loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
-                            const auto row = [&](int c)
-                            { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
-                            const V3 turned = V3{row(0), row(1), row(2)} * valuesOf(scale, lane);
-                            store3(turned, out + place(node, lane));
-                            return dot(load3(in + place(node, lane)), turned);
-                        });
+    forEachNode(warp.m_nodes,
+                [&](int node, int lane)
+                {
+                    F R[9], q[3];
+                    loadFloats(DF(), warp.m_rotation, node, lane, R);
+                    loadFloats(DF(), warp.m_factorVector, warp.m_position[node], lane, q);
+                    const auto row = [&](int c)
+                    { return hn::PromoteTo(D(), R[3 * c] * q[0] + R[3 * c + 1] * q[1] + R[3 * c + 2] * q[2]); };
+                    store3(V3{row(0), row(1), row(2)} * valuesOf(scale, lane), out + place(node, lane));
+                });
+}
+
+HWY_INLINE V3 set3(const Vec3& v)
+{
+    return {hn::Set(D(), v.x), hn::Set(D(), v.y), hn::Set(D(), v.z)};
+}
+
+HWY_INLINE V3 loadFactorEntry(const float* y, int node, int lane)
+{
+    F q[3];
+    loadFloats(DF(), y, node, lane, q);
+    return {hn::PromoteTo(D(), q[0]), hn::PromoteTo(D(), q[1]), hn::PromoteTo(D(), q[2])};
+}
+
+HWY_INLINE void storeFactorEntry(const V3& v, int node, int lane, float* y)
+{
+    const F q[3] = {hn::DemoteTo(DF(), v.x), hn::DemoteTo(DF(), v.y), hn::DemoteTo(DF(), v.z)};
+    storeFloats(DF(), q, node, lane, y);
+}
+
+/// The rigid motion of a component with these momenta.
+struct RestMotion
+{
+    V3 m_linear, m_angular;
+};
+HWY_INLINE RestMotion restMotionOf(const RestModes& modes, const V3& linear, const V3& angular)
+{
+    const RestModes::Component& component = modes.components().front();
+    const Mat3& I = component.m_inverseInertia;
+    const auto row = [&](int k) { return dot(set3({I(k, 0), I(k, 1), I(k, 2)}), angular); };
+    return {linear * hn::Set(D(), component.m_inverseMass), {row(0), row(1), row(2)}};
+}
+
+HWY_INLINE void storeMotion(const RestMotion& motion, int lane, BatchMotions& motions)
+{
+    const V linear[3] = {motion.m_linear.x, motion.m_linear.y, motion.m_linear.z};
+    const V angular[3] = {motion.m_angular.x, motion.m_angular.y, motion.m_angular.z};
+    for (int c = 0; c < 3; ++c)
+    {
+        storeValues(linear[c], lane, motions.m_linear[c]);
+        storeValues(angular[c], lane, motions.m_angular[c]);
+    }
+}
+
+HWY_INLINE V3 valuesOf3(const PerBatch3& values, int lane)
+{
+    return {valuesOf(values[0], lane), valuesOf(values[1], lane), valuesOf(values[2], lane)};
+}
+
+void RemoveRestImpulses(const RestModes& modes, float* factorVector, BatchMotions& motions)
+{
+    const int count = static_cast<int>(modes.nodes().size());
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const V zero = hn::Zero(D());
+        V3 linear = {zero, zero, zero}, angular = linear;
+        for (int k = 0; k < count; ++k)
+        {
+            const V3 impulse = loadFactorEntry(factorVector, k, lane);
+            linear = linear + impulse;
+            angular = angular + cross(set3(modes.nodes()[k].m_lever), impulse);
+        }
+        const RestMotion motion = restMotionOf(modes, linear, angular);
+        storeMotion(motion, lane, motions);
+        for (int k = 0; k < count; ++k)
+        {
+            const V3 velocity = motion.m_linear + cross(motion.m_angular, set3(modes.nodes()[k].m_lever));
+            const V3 rigid = velocity * hn::Set(D(), modes.nodes()[k].m_mass);
+            storeFactorEntry(loadFactorEntry(factorVector, k, lane) - rigid, k, lane, factorVector);
+        }
+    }
+}
+
+void ReplaceRestMotions(const RestModes& modes, const BatchMotions& motions, float* factorVector)
+{
+    const int count = static_cast<int>(modes.nodes().size());
+    const V softness = hn::Set(D(), modes.components().front().m_softness);
+    for (int lane = 0; lane < kBatchWidth; lane += kN)
+    {
+        const V zero = hn::Zero(D());
+        V3 linear = {zero, zero, zero}, angular = linear;
+        for (int k = 0; k < count; ++k)
+        {
+            const V3 momentum = loadFactorEntry(factorVector, k, lane) * hn::Set(D(), modes.nodes()[k].m_mass);
+            linear = linear + momentum;
+            angular = angular + cross(set3(modes.nodes()[k].m_lever), momentum);
+        }
+        const RestMotion found = restMotionOf(modes, linear, angular);
+        linear = valuesOf3(motions.m_linear, lane) * softness - found.m_linear;
+        angular = valuesOf3(motions.m_angular, lane) * softness - found.m_angular;
+        for (int k = 0; k < count; ++k)
+        {
+            const V3 velocity = linear + cross(angular, set3(modes.nodes()[k].m_lever));
+            storeFactorEntry(loadFactorEntry(factorVector, k, lane) + velocity, k, lane, factorVector);
+        }
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -154,9 +248,14 @@ namespace bullet_fem
 
 BULLETFEM_EXPORT(AverageLanes, void averageRotations(const BatchNodeRotations& rotations), rotations)
 BULLETFEM_EXPORT(RotateIn, PerBatch rotateIn(const BatchWarp& warp, ConstBodyVectors in), warp, in)
-BULLETFEM_EXPORT(RotateOut,
-                 PerBatch rotateOut(const BatchWarp& warp, const PerBatch& scale, ConstBodyVectors in, BodyVectors out),
-                 warp, scale, in, out)
+BULLETFEM_EXPORT(RotateOut, void rotateOut(const BatchWarp& warp, const PerBatch& scale, BodyVectors out), warp, scale,
+                 out)
+BULLETFEM_EXPORT(RemoveRestImpulses,
+                 void removeRestImpulses(const RestModes& modes, float* factorVector, BatchMotions& motions), modes,
+                 factorVector, motions)
+BULLETFEM_EXPORT(ReplaceRestMotions,
+                 void replaceRestMotions(const RestModes& modes, const BatchMotions& motions, float* factorVector),
+                 modes, motions, factorVector)
 
 }  // namespace bullet_fem
 #endif

@@ -31,8 +31,7 @@ bool areJobsEqual(const Job& jobA, const Job& jobB)
 {
     const StepSettings &a = jobA.m_settings, &b = jobB.m_settings;
     return StepCoefficients(a, *jobA.m_body).m_damping == StepCoefficients(b, *jobB.m_body).m_damping &&
-           a.m_step == b.m_step && a.m_tension == b.m_tension && a.m_momentumCorrection == b.m_momentumCorrection &&
-           a.m_batchMemory == b.m_batchMemory;
+           a.m_step == b.m_step && a.m_tension == b.m_tension && a.m_batchMemory == b.m_batchMemory;
 }
 
 }  // namespace
@@ -58,7 +57,8 @@ bool areEqual(const FreeMotion& a, const FreeMotion& b)
 {
     const auto variation = [](const FreeMotion& motion)
     { return motion.m_body->m_workspace.scratch().m_stepVariation; };
-    return areJobsEqual(a, b) && variation(a) == variation(b);
+    const auto isHeld = [](const FreeMotion& motion) { return motion.m_body->m_loads.m_isHeld; };
+    return areJobsEqual(a, b) && variation(a) == variation(b) && isHeld(a) == isHeld(b);
 }
 bool areEqual(const ImpulseResponse& a, const ImpulseResponse& b)
 {

@@ -33,7 +33,8 @@ public:
     {
         for (int b = 0; b < m_count; ++b) beginDrift(body(b), m_settings);
         gatherNodes();
-        gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, m_arrays.m_v.get());
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_kickVelocity; },
+                      m_arrays.m_v.get());
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_loads.m_force; },
                       m_arrays.m_rightSide.get());
         for (int b = 0; b < kBatchWidth; ++b)
@@ -65,15 +66,20 @@ public:
             inertia = RigidMomentum::inverseInertia(inertia, m_momenta.m_mass[b], center);
             for (int k = 0; k < 9; ++k) m_momenta.m_inertia[k][b] = inertia(k / 3, k % 3);
         }
+        keepMomenta();
+        for (int b = 0; b < m_count; ++b) noteArcs(body(b), m_settings);
     }
 
-    // b = h (f_ext + f_el(y) - alpha M v - K' w), and A of this step.
+    // As OneFreeMotion::makeRightSide().
     void passOverElements()
     {
         const double h = m_settings.m_step, beta = m_arrays.model().shape().m_material.m_stiffnessDamping;
-        const ViscousShares shares(m_coefficients, h, beta);
-        double* w = m_arrays.m_direction.get();
-        findViscous(m_arrays.masses(), m_momenta, {m_arrays.m_v.get(), h, shares.m_ofVelocity, shares.m_ofTurning}, w);
+        double *w = m_arrays.m_direction.get(), *elastic = m_arrays.m_product.get();
+        std::copy_n(m_arrays.m_v.get(), static_cast<std::size_t>(3 * kBatchWidth) * nodes(), elastic);
+        removeMotion(m_arrays.masses(), m_momenta, elastic, elastic);
+        scaleVectors(m_coefficients.m_damping * h + beta, elastic, w, nodes());
+        if (!scratch(0).m_isTurned)
+            addInward(m_arrays.masses(), m_momenta, -m_coefficients.chordStrain(h, beta) * h, w);
         const double tension = m_settings.m_tension ? m_coefficients.stiffness() * h * h : 0;
         BatchElementPass pass = {m_arrays.m_x.get(), w, 1, tension, {}, {}, {}};
         for (int b = 0; b < kBatchWidth; ++b)
@@ -86,7 +92,9 @@ public:
             if (work.m_stepsReadyForImpulses > 0) pass.m_warped[b] = work.m_single.m_warped.data();
         }
         runElementPass(m_arrays.elements(), pass);
-        m_bSquares = addForces(m_arrays.inertia(), m_alpha, h, m_arrays.m_v.get(), m_arrays.m_rightSide.get());
+        double* right = m_arrays.m_rightSide.get();
+        addForces(m_arrays.inertia(), m_alpha, h, m_arrays.m_v.get(), right);
+        if (scratch(0).m_isTurned) addCentrifugal(m_arrays.masses(), m_momenta, h, right);
         for (int b = 0; b < m_count; ++b)  // padding of the last block repeats the last element
         {
             std::vector<Quaternion>& rotation = body(b).m_state.m_elementRotation;
@@ -101,8 +109,8 @@ public:
     {
         const double r = scratch(0).m_stepVariation;
         if (!(r > 0) || !m_settings.m_tension) return;
-        runElementProduct(m_arrays.elements(), 0, m_arrays.m_v.get());
-        m_bSquares = subtractSums(m_arrays.inertia(), r, m_arrays.m_rightSide.get());
+        runElementProduct(m_arrays.elements(), 0, m_arrays.m_product.get());
+        subtractSums(m_arrays.inertia(), r, m_arrays.m_rightSide.get());
     }
 
     void averageRotations()
@@ -125,8 +133,9 @@ public:
         { return motion(b).m_predicted ? m_arrays.m_zeros : body(b).m_state.m_lastIncrement[k]; };
         gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 0); }, last);
         gatherVectors([&](int b) -> const std::vector<Vec3>& { return lastIncrement(b, 1); }, before);
-        extrapolate(last, before, m_arrays.m_increment.get(), nodes());
-        completeGuess();
+        double* dv = m_arrays.m_increment.get();
+        extrapolate(last, before, dv, nodes());
+        removeMotion(m_arrays.masses(), m_momenta, dv, dv);
     }
 
     void addPredictedImpulses()
@@ -136,7 +145,7 @@ public:
         gatherVectors([this](int b) -> const std::vector<Vec3>&
                       { return motion(b).m_predicted ? *motion(b).m_predicted : m_arrays.m_zeros; },
                       impulses);
-        m_bSquares = addAndMeasure(impulses, m_arrays.m_rightSide.get(), nodes());
+        addVectors(impulses, m_arrays.m_rightSide.get(), nodes());
         PerBatch share;
         for (int b = 0; b < kBatchWidth; ++b) share[b] = 1 / (1 + m_settings.m_step * m_alpha[b]);
         const PerBatch squares = addImpulses(m_arrays.masses(), impulses, share, m_momenta);
@@ -232,7 +241,7 @@ public:
         gatherVectors([this](int b) -> const std::vector<Vec3>&
                       { return scratch(b).m_hasResidual ? scratch(b).m_residual : m_arrays.m_zeros; },
                       m_arrays.m_residual.get());
-        m_bSquares = addAndMeasure(m_arrays.m_residual.get(), m_arrays.m_rightSide.get(), nodes());
+        addVectors(m_arrays.m_residual.get(), m_arrays.m_rightSide.get(), nodes());
     }
 
     // Initial guess: the return to the velocities at the start of the step, or zero.
@@ -246,9 +255,9 @@ public:
             std::fill_n(dv, static_cast<std::size_t>(3 * kBatchWidth) * nodes(), 0.0);
             return;
         }
-        gatherVectors([this](int b) -> const std::vector<Vec3>& { return body(b).m_state.m_v; }, dv);
+        gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_kickVelocity; }, dv);
         subtract(dv, m_arrays.m_v.get(), dv, nodes());
-        completeGuess();
+        removeMotion(m_arrays.masses(), m_momenta, dv, dv);
         PerBatch keeps;
         for (int b = 0; b < kBatchWidth; ++b) keeps[b] = response(b).m_steady;
         clearOthers(keeps, dv, nodes());
@@ -282,6 +291,7 @@ public:
     void readChange()
     {
         gatherNodes();
+        gatherMomenta();
         gatherVectors([this](int b) -> const std::vector<Vec3>& { return scratch(b).m_increment; },
                       m_arrays.m_increment.get());
     }

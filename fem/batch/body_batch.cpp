@@ -43,7 +43,7 @@ void BodyBatch::keepMomenta() const
             piece.m_angular[c] = m_momenta.m_angular[c][b];
         }
         for (int k = 0; k < 9; ++k) piece.m_inverseInertia(k / 3, k % 3) = m_momenta.m_inertia[k][b];
-        scratch(b).m_momentum.setOnlyComponent(piece);
+        scratch(b).m_momentum.setOnlyComponent(piece, 1 / m_inertiaFactor[b]);
     }
 }
 
@@ -57,10 +57,11 @@ void BodyBatch::completeSystem()
     for (int b = 0; b < kBatchWidth; ++b) m_inertiaFactor[b] = 1 + m_settings.m_step * RigidMomentum::damping(body(b));
 }
 
-// Adds to the initial guess of dv the rigid motion that gives the bodies their prescribed momentum.
-void BodyBatch::completeGuess()
+void BodyBatch::solve()
 {
-    completeIncrements(m_arrays.masses(), m_momenta, m_arrays.m_v.get(), m_arrays.m_increment.get());
+    double* b = m_arrays.m_rightSide.get();
+    m_bSquares = removeImpulses(m_arrays.masses(), m_momenta, b, b);
+    solveConjugateGradients(*this, m_stops, m_isGuessed, m_reports.data());
 }
 
 // Adds the elements' part of A p to the sums.
@@ -70,24 +71,23 @@ void BodyBatch::addStiffness(ConstBodyVectors p) const
     runElementProduct(m_arrays.elements(), h * (m_coefficients.stiffness() * h + beta), p);
 }
 
-// Computes b = (A - M) p and |b|^2, and sets p = 0.
+// Computes b = (A - M) p, and sets p = 0.
 void BodyBatch::stiffnessOf(BodyVectors p)
 {
     const std::size_t size = static_cast<std::size_t>(3 * kBatchWidth) * nodes();
     PerBatch none;
     std::fill(std::begin(none.m), std::end(none.m), 0.0);
     addStiffness(p);
-    addInertia(m_arrays.inertia(), none, p, m_arrays.m_product.get());
-    std::fill_n(m_arrays.m_rightSide.get(), size, 0.0);
-    m_bSquares = addAndMeasure(m_arrays.m_product.get(), m_arrays.m_rightSide.get(), nodes());
+    addInertia(m_arrays.inertia(), none, p, m_arrays.m_rightSide.get());
     std::fill_n(p, size, 0.0);
 }
 
-// Computes A p; returns p . A p.
-PerBatch BodyBatch::applyA(ConstBodyVectors p, BodyVectors Ap) const
+// Computes Pi^T A p; returns its product with a vector.
+PerBatch BodyBatch::applyA(ConstBodyVectors p, ConstBodyVectors with, BodyVectors Ap) const
 {
     addStiffness(p);
-    return addInertia(m_arrays.inertia(), m_inertiaFactor, p, Ap);
+    addInertia(m_arrays.inertia(), m_inertiaFactor, p, Ap);
+    return removeImpulses(m_arrays.masses(), m_momenta, with, Ap);
 }
 
 BatchRecurrence BodyBatch::recurrence(const PerBatch& active) const
@@ -111,9 +111,9 @@ void BodyBatch::startFromZero()
 GuessMeasure<kBatchWidth> BodyBatch::measureGuess()
 {
     const double* x = m_arrays.m_increment.get();
-    addStiffness(x);
-    const BatchGuessMeasure measured = bullet_fem::measureGuess(
-        m_arrays.inertia(), m_inertiaFactor, {x, m_arrays.m_rightSide.get(), m_arrays.m_product.get()});
+    applyA(x, x, m_arrays.m_product.get());
+    const BatchGuessMeasure measured =
+        bullet_fem::measureGuess({nodes(), x, m_arrays.m_rightSide.get(), m_arrays.m_product.get()});
     m_guessProducts = {measured.m_bx, measured.m_xAx};
     return {measured.m_xx, measured.m_residual};
 }
@@ -128,18 +128,23 @@ PerBatch BodyBatch::scaleGuess(const PerBatch& scale, const PerBatch&)
 
 PerBatch BodyBatch::trueResidual(const PerBatch& active)
 {
-    applyA(m_arrays.m_increment.get(), m_arrays.m_product.get());
+    applyA(m_arrays.m_increment.get(), m_arrays.m_increment.get(), m_arrays.m_product.get());
     return subtractProduct(recurrence(active));
 }
 
 PerBatch BodyBatch::precondition(bool isFirst)
 {
     const double* r = m_arrays.m_residual.get();
+    const RestModes& rest = m_arrays.model().restModes();
     const PerBatch scale = rotateIn(m_arrays.warp(), r);
+    BatchMotions motions;
+    removeRestImpulses(rest, m_arrays.m_factorVector.get(), motions);
     m_arrays.model().factor().lower().solveBatch(m_arrays.m_factorVector.get(), m_arrays.m_factorScratch.get());
+    replaceRestMotions(rest, motions, m_arrays.m_factorVector.get());
     m_z = isFirst ? m_arrays.m_direction.get()  // first direction p = z; later z shares the memory of A p
                   : m_arrays.m_product.get();
-    return rotateOut(m_arrays.warp(), scale, r, m_z);
+    rotateOut(m_arrays.warp(), scale, m_z);
+    return removeMotion(m_arrays.masses(), m_momenta, r, m_z);
 }
 
 void BodyBatch::turnDirection(const PerBatch& beta, const PerBatch& active)
@@ -154,11 +159,8 @@ PerBatch BodyBatch::advance(const PerBatch& step, const PerBatch& active)
 
 void BodyBatch::addIncrement()
 {
-    double *dv = m_arrays.m_increment.get(), *v = m_arrays.m_v.get();
-    if (m_settings.m_momentumCorrection)
-        addWithMomentum(m_arrays.masses(), m_momenta, dv, v);
-    else
-        addAndMeasure(dv, v, nodes());
+    double* v = m_arrays.m_v.get();
+    addWithMomentum(m_arrays.masses(), m_momenta, m_arrays.m_increment.get(), v);
     scatterVectors([this](int b) { return &scratch(b).m_velocity; }, v);
 }
 

@@ -26,7 +26,7 @@ public:
     }
 
     // Stages of the step.
-    void solve() { solveConjugateGradients(*this, m_stops, m_isGuessed, m_reports.data()); }
+    void solve();
     void addIncrement();
     void completeSystem();
 
@@ -41,7 +41,10 @@ public:
     PerBatch trueResidual(const PerBatch& active);
     PerBatch precondition(bool isFirst);
     void turnDirection(const PerBatch& beta, const PerBatch& active);
-    PerBatch applyToDirection() { return applyA(m_arrays.m_direction.get(), m_arrays.m_product.get()); }
+    PerBatch applyToDirection()
+    {
+        return applyA(m_arrays.m_direction.get(), m_arrays.m_direction.get(), m_arrays.m_product.get());
+    }
     PerBatch advance(const PerBatch& step, const PerBatch& active);
 
 protected:
@@ -91,7 +94,6 @@ protected:
     void gatherNodes();
     void gatherMomenta();
     void keepMomenta() const;
-    void completeGuess();
     void stiffnessOf(BodyVectors p);
     void keepResiduals(const std::array<bool, kBatchWidth>& wanted) const;
 
@@ -109,7 +111,7 @@ protected:
 
 private:
     void addStiffness(ConstBodyVectors p) const;
-    PerBatch applyA(ConstBodyVectors p, BodyVectors Ap) const;
+    PerBatch applyA(ConstBodyVectors p, ConstBodyVectors with, BodyVectors Ap) const;
     BatchRecurrence recurrence(const PerBatch& active) const;
 
     GuessProducts<kBatchWidth> m_guessProducts;

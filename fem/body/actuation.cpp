@@ -152,8 +152,7 @@ void Actuation::beginCable(const Cable& cable, const std::vector<Vec3>& y, const
     pull.m_rightSide = 0;
 }
 
-void Actuation::addForces(const Actuators& actuators, const std::vector<Vec3>& v, const std::vector<Vec3>& turning,
-                          std::vector<Vec3>& force)
+void Actuation::addForces(const Actuators& actuators, const std::vector<Vec3>& v, std::vector<Vec3>& force)
 {
     forEachPull(actuators, m_pulls,
                 [&](const auto& actuator, Pull& pull)
@@ -161,11 +160,7 @@ void Actuation::addForces(const Actuators& actuators, const std::vector<Vec3>& v
                     if (!pull.m_pulls) return;
                     double q = pull.m_force;
                     if (pull.m_stiffness > 0)
-                    {
-                        q -= pull.m_stiffness *
-                             (m_factors.m_ofVelocity * dotGradient(actuator, pull.m_gradient, v) -
-                              m_factors.m_ofTurning * dotGradient(actuator, pull.m_gradient, turning));
-                    }
+                        q -= pull.m_stiffness * m_factors.m_ofVelocity * dotGradient(actuator, pull.m_gradient, v);
                     pull.m_rightSide = m_factors.m_step * q;
                     addGradient(actuator, pull.m_gradient, q, force);
                 });

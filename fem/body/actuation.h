@@ -15,14 +15,13 @@ struct PullFactors
 {
     double m_step = 0;        ///< h [s]
     double m_ofVelocity = 0;  ///< s h [s]
-    double m_ofTurning = 0;   ///< e h [s], e = StepCoefficients::turningOfLength()
     double m_inMatrix = 0;    ///< c h^2 [s2]
 };
 
 /// A body's actuators in one step, linearized about the kick positions y. An actuator with the scalar q(x) and gradient
 /// g = dq/dx applies to the nodes the force
 ///
-///     Q g,   Q = Q(q(y)) - kappa (s h g . v + c h g . dv - e h g . turning),   kappa = -dQ/dq >= 0
+///     Q g,   Q = Q(q(y)) - kappa (s h g . v + c h g . dv),   kappa = -dQ/dq >= 0
 ///
 /// Q is the gauge pressure of a chamber, with kappa = p_absolute / V of a sealed gas, or minus the tension of a cable,
 /// with kappa its stiffness. A gains the positive semidefinite rank-one matrix c h^2 kappa g g^T, in analogy to the
@@ -39,10 +38,8 @@ public:
 
     double step() const { return m_factors.m_step; }  ///< h [s]
 
-    /// Sets the explicit part of Q, from the velocities v and their turning h w x (w x r) [m/s], and adds it times g to
-    /// the nodes' forces [N].
-    void addForces(const Actuators& actuators, const std::vector<Vec3>& v, const std::vector<Vec3>& turning,
-                   std::vector<Vec3>& force);
+    /// Sets the explicit part of Q, from the velocities v [m/s], and adds it times g to the nodes' forces [N].
+    void addForces(const Actuators& actuators, const std::vector<Vec3>& v, std::vector<Vec3>& force);
 
     /// b -= (actuators' part of A) in.
     void subtractFromRightSide(const Actuators& actuators, const std::vector<Vec3>& in, std::vector<Vec3>& b);

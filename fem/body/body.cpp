@@ -17,6 +17,7 @@ namespace bullet_fem
 StepScratch::StepScratch(const BodyModel& model)
     : m_velocity(model.nodeCount()),
       m_kickPosition(model.nodeCount()),
+      m_kickVelocity(model.nodeCount()),
       m_drift(model.nodeCount()),
       m_meanVelocity(model.nodeCount()),
       m_push(model.nodeCount()),
@@ -30,7 +31,8 @@ StepScratch::StepScratch(const BodyModel& model)
       m_reactions(model),
       m_elements(model.nodeCount(), model.elements().blockCount()),
       m_factor{allocateFloats(model.factor().lower().vectorSize()),
-               allocateFloats(model.factor().lower().scratchSize())}
+               allocateFloats(model.factor().lower().scratchSize()),
+               std::vector<RestModes::Motion>(2 * model.restModes().components().size())}
 {
     const EdgeSmoothing<float>& smoothing = model.elements().smoothing<float>();
     if (!smoothing.empty()) m_elements.m_single.m_smoothed.grow(model.elements().blockCount(), smoothing.domainCount());

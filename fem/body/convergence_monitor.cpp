@@ -102,7 +102,7 @@ void ConvergenceMonitor::noteStep(double rz, double rNorm)
 SolveReport ConvergenceMonitor::report() const
 {
     SolveReport report = m_report;
-    const double scale = m_stop.m_steady ? std::max(m_bNorm, m_stop.m_floor) : m_bNorm;
+    const double scale = std::max(m_bNorm, m_stop.m_floor);
     report.m_residual = scale > 0 ? m_rNorm / scale : 0;
     return report;
 }

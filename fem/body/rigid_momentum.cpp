@@ -6,39 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/body/rigid_sums.h"
 #include "fem/body/step_scratch.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-// Inverse of an inertia tensor, bounded along axes without inertia (a component collapsed to a point or a line). Zero
-// if the trace is at most `rounding` [kg m2].
-Mat3 boundedInverse(const Mat3& inertia, double rounding)
-{
-    const double size = trace(inertia);
-    if (!(size > rounding)) return {};
-    return inverse(inertia + Mat3::diagonal(1e-14 * size));
-}
-
 // Maximum distance of fixed nodes from their common point or line, as a share of the component's size [-].
 constexpr double kCollinearShare = 1e-4;
-
-// Calls add(component, i) for every node, in order. Consecutive nodes mostly belong to one component, whose sums then
-// stay in registers instead of waiting for memory.
-template <class Component, class Add>
-void forEachNode(const std::vector<int>& componentOf, std::vector<Component>& components, const Add& add)
-{
-    const int n = static_cast<int>(componentOf.size());
-    for (int i = 0; i < n;)
-    {
-        const int c = componentOf[i];
-        Component component = components[c];
-        for (; i < n && componentOf[i] == c; ++i) add(component, i);
-        components[c] = component;
-    }
-}
 
 // Reference positions of levers: with x+ = y + h theta v+, only the part of the end angular momentum with the positions
 // y depends on the end velocities.
@@ -109,22 +87,27 @@ void RigidMomentum::findMovable(const Body& body, double step, const std::vector
                                                    : boundedInverse(component.m_inverseInertia, 0);
         component.m_mass = std::numeric_limits<double>::infinity();
     }
+    const std::vector<RestModes::Component>& rest = body.m_model->restModes().components();
+    m_hasRestModes = body.m_model->restModes().any() && body.m_state.m_fixed == body.m_model->factorInput().m_fixed;
+    for (std::size_t c = 0; c < m_components.size(); ++c)
+        m_hasRestModes = m_hasRestModes && (m_components[c].m_isMovable || !rest[c].moves());
 }
 
 void RigidMomentum::prescribe(const Body& body, double step)
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
-    const std::vector<Vec3>& x = leverPositions(body);
+    const std::vector<Vec3>&x = leverPositions(body), &v = body.m_workspace.scratch().m_kickVelocity;
     findCenters(body, x);
     const double alpha = damping(body), toFrame = body.m_loads.m_frameDamping;
     const double share = step / (1 + step * (alpha + toFrame));
+    m_impulseShare = 1 / (1 + step * alpha);
     for (Component& component : m_components)
         if (component.m_pivot >= 0) component.m_carried = body.m_loads.m_targetVelocity[component.m_pivot];
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
-                    const Vec3 r = x[i] - component.m_center, p = s.m_mass[i] * s.m_v[i];
+                    const Vec3 r = x[i] - component.m_center, p = s.m_mass[i] * v[i];
                     Vec3 force = body.m_loads.m_force[i] - alpha * p;
                     if (toFrame > 0) force += toFrame * (s.m_mass[i] * body.m_loads.m_frameVelocity[i] - p);
                     const Vec3 prescribed = p + share * force - s.m_mass[i] * component.m_carried;
@@ -153,9 +136,10 @@ RigidMomentum::FreeComponent RigidMomentum::onlyComponent() const
     return {component.m_mass, component.m_center, component.m_linear, component.m_angular, component.m_inverseInertia};
 }
 
-void RigidMomentum::setOnlyComponent(const FreeComponent& free)
+void RigidMomentum::setOnlyComponent(const FreeComponent& free, double impulseShare)
 {
-    m_anyMovable = true;
+    m_anyMovable = m_hasRestModes = true;
+    m_impulseShare = impulseShare;
     Component& component = m_components.front();
     component = Component();
     component.m_mass = free.m_mass;
@@ -193,26 +177,98 @@ void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
         component.m_linearVelocity = component.m_linear;
         component.m_angularVelocity = component.m_angular;
     }
-    addRigid(body, x, velocity);
+    addRigid(body, x, true, velocity);
+}
+
+void RigidMomentum::clearMotions() const
+{
+    for (Component& component : m_components) component.m_linearVelocity = component.m_angularVelocity = {};
+}
+
+// Velocities of the components with these momenta, which are in their place on entry.
+void RigidMomentum::findMotions() const
+{
+    for (Component& component : m_components)
+    {
+        component.m_linearVelocity *= 1 / component.m_mass;
+        component.m_angularVelocity = component.m_inverseInertia * component.m_angularVelocity;
+    }
+}
+
+void RigidMomentum::removeMotion(const Body& body, std::vector<Vec3>& change) const
+{
+    if (!m_anyMovable) return;
+    clearMotions();
+    addRigid(body, leverPositions(body), false, change);
+}
+
+void RigidMomentum::removeRigidVelocity(const Body& body, std::vector<Vec3>& velocity) const
+{
+    if (!m_anyMovable) return;
+    clearMotions();
+    addRigid(body, leverPositions(body), true, velocity);
+}
+
+// The resultants of impulses on the free nodes, in place of the components' velocities.
+void RigidMomentum::sumImpulses(const Body& body, const std::vector<Vec3>& impulses) const
+{
+    const std::vector<Vec3>& x = leverPositions(body);
+    clearMotions();
+    forEachNode(body.m_model->mesh().nodeComponent(), m_components,
+                [&](Component& component, int i)
+                {
+                    if (body.m_state.m_fixed[i]) return;
+                    component.m_linearVelocity += impulses[i];
+                    component.m_angularVelocity += cross(x[i] - component.m_center, impulses[i]);
+                });
+}
+
+void RigidMomentum::removeImpulses(const Body& body, std::vector<Vec3>& impulses) const
+{
+    if (!m_anyMovable) return;
+    const std::vector<Vec3>& x = leverPositions(body);
+    sumImpulses(body, impulses);
+    findMotions();
+    forEachNode(body.m_model->mesh().nodeComponent(), m_components,
+                [&](const Component& component, int i)
+                {
+                    if (component.m_isMovable && !body.m_state.m_fixed[i])
+                        impulses[i] -=
+                            body.m_state.m_mass[i] * (component.m_linearVelocity +
+                                                      cross(component.m_angularVelocity, x[i] - component.m_center));
+                });
+}
+
+void RigidMomentum::addResponse(const Body& body, const std::vector<Vec3>& impulses, std::vector<Vec3>& change) const
+{
+    if (!m_anyMovable) return;
+    const std::vector<Vec3>& x = leverPositions(body);
+    sumImpulses(body, impulses);
+    findMotions();
+    forEachNode(body.m_model->mesh().nodeComponent(), m_components,
+                [&](const Component& component, int i)
+                {
+                    if (component.m_isMovable && !body.m_state.m_fixed[i])
+                        change[i] += m_impulseShare * (component.m_linearVelocity +
+                                                       cross(component.m_angularVelocity, x[i] - component.m_center));
+                });
 }
 
 // Adds the rigid motion with the missing momentum: the momenta to reach are in the components' velocities on entry.
-void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity)
+// `fromCarried`: of velocities relative to those of the fixed nodes.
+void RigidMomentum::addRigid(const Body& body, const std::vector<Vec3>& x, bool fromCarried,
+                             std::vector<Vec3>& velocity) const
 {
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const BodyState& s = body.m_state;
     forEachNode(componentOf, m_components,
                 [&](Component& component, int i)
                 {
-                    const Vec3 p = s.m_mass[i] * (velocity[i] - component.m_carried);
+                    const Vec3 p = s.m_mass[i] * (fromCarried ? velocity[i] - component.m_carried : velocity[i]);
                     component.m_linearVelocity -= p;
                     component.m_angularVelocity -= cross(x[i] - component.m_center, p);
                 });
-    for (Component& component : m_components)
-    {
-        component.m_linearVelocity *= 1 / component.m_mass;
-        component.m_angularVelocity = component.m_inverseInertia * component.m_angularVelocity;
-    }
+    findMotions();
     forEachNode(componentOf, m_components,
                 [&](const Component& component, int i)
                 {
@@ -238,49 +294,60 @@ RigidMomentum::Share RigidMomentum::shareOf(const Body& body, const int* nodes, 
     return share;
 }
 
-Mat3 RigidMomentum::answer(const Share& of, const Share& to) const
+RigidMomentum::Share RigidMomentum::responseTo(const Share& share) const
 {
-    if (of.m_component < 0 || of.m_component != to.m_component) return {};
-    const Component& component = m_components[of.m_component];
-    if (!component.m_isMovable) return {};
-    return (1 / component.m_mass) * (transpose(of.m_linear) * to.m_linear) +
-           transpose(of.m_angular) * (component.m_inverseInertia * to.m_angular);
+    if (share.m_component < 0 || !m_components[share.m_component].m_isMovable) return {};
+    const Component& component = m_components[share.m_component];
+    return {share.m_component, m_impulseShare / component.m_mass * share.m_linear,
+            m_impulseShare * (component.m_inverseInertia * share.m_angular)};
 }
 
-double RigidMomentum::rigidWork(const Body& body, const std::vector<Vec3>& impulses)
+double RigidMomentum::rigidWork(const Body& body, const std::vector<Vec3>& impulses) const
 {
-    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
-    const std::vector<Vec3>& x = leverPositions(body);
-    for (Component& component : m_components) component.m_linearVelocity = component.m_angularVelocity = {};
-    forEachNode(componentOf, m_components,
-                [&](Component& component, int i)
-                {
-                    if (body.m_state.m_fixed[i]) return;
-                    component.m_linearVelocity += impulses[i];
-                    component.m_angularVelocity += cross(x[i] - component.m_center, impulses[i]);
-                });
+    sumImpulses(body, impulses);
     double work = 0;
     for (const Component& component : m_components)
         if (component.m_isMovable)
             work += dot(component.m_linearVelocity, component.m_linearVelocity) / component.m_mass +
                     dot(component.m_angularVelocity, component.m_inverseInertia * component.m_angularVelocity);
-    return work;
+    return m_impulseShare * work;
 }
 
-void RigidMomentum::addTurning(const Body& body, double step, std::vector<Vec3>& change) const
+Vec3 RigidMomentum::spin(const Component& component) const
+{
+    const bool hangs = component.m_pivot >= 0;
+    return component.m_inverseInertia *
+           (hangs ? 0.5 * (component.m_angularBefore + component.m_angular) : component.m_angular);
+}
+
+void RigidMomentum::addInward(const Body& body, double factor, std::vector<Vec3>& change) const
 {
     if (!m_anyMovable) return;
     const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
     const std::vector<Vec3>& x = leverPositions(body);
+    for (Component& component : m_components) component.m_angularVelocity = spin(component);
     for (std::size_t i = 0; i < x.size(); ++i)
     {
         const Component& component = m_components[componentOf[i]];
         if (!component.m_isMovable) continue;
-        const bool hangs = component.m_pivot >= 0;
-        const Vec3 L = hangs ? 0.5 * (component.m_angularBefore + component.m_angular) : component.m_angular;
-        const Vec3 w = component.m_inverseInertia * L;
-        change[i] += step * cross(w, cross(w, x[i] - component.m_center));
+        const Vec3& w = component.m_angularVelocity;
+        change[i] += factor * cross(w, cross(w, x[i] - component.m_center));
     }
+}
+
+void RigidMomentum::addCentrifugal(const Body& body, double step, std::vector<Vec3>& b) const
+{
+    if (!m_anyMovable) return;
+    const std::vector<Vec3>& x = leverPositions(body);
+    for (Component& component : m_components) component.m_angularVelocity = spin(component);
+    forEachNode(body.m_model->mesh().nodeComponent(), m_components,
+                [&](const Component& component, int i)
+                {
+                    if (!component.m_isMovable || body.m_state.m_fixed[i]) return;
+                    const Vec3& w = component.m_angularVelocity;
+                    const Vec3 inward = cross(w, cross(w, x[i] - component.m_center));
+                    b[i] -= (step * body.m_state.m_mass[i]) * inward;
+                });
 }
 
 void RigidMomentum::removeMomentum(const Body& body, double step, const std::vector<Vec3>& x, std::vector<Vec3>& change)
@@ -294,7 +361,7 @@ void RigidMomentum::removeMomentum(const Body& body, double step, const std::vec
                     component.m_inverseInertia += body.m_state.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));
                 });
     findMovable(body, step, x);
-    if (m_anyMovable) addRigid(body, x, change);
+    if (m_anyMovable) addRigid(body, x, true, change);
 }
 
 }  // namespace bullet_fem

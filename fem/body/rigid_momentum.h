@@ -9,19 +9,41 @@
 namespace bullet_fem
 {
 
-/// The momentum that external impulses prescribe for every connected component of a body that can move rigidly: about
-/// its centre of mass without fixed nodes, about the fixed nodes if these are at one point or on one line. The warped
-/// stiffness has no torque balance about the deformed positions and conjugate gradients stop early; both lose momentum,
-/// which a rigid motion of up to six unknowns per component restores (docs/theory.md, Momentum).
+/// The rigid motion G xi of every connected component that can move rigidly, at the kick positions: about its centre of
+/// mass without fixed nodes, about the fixed nodes if these are at one point or on one line. External impulses
+/// prescribe its momentum, so xi is known exactly; a step solves for the elastic part of the velocities only, which has
+/// no momentum, G^T M w = 0, and responds to impulses without resultant, Pi^T J with Pi = 1 - G (G^T M G)^-1 G^T M
+/// (docs/theory.md, Rigid motion).
 class RigidMomentum
 {
 public:
     explicit RigidMomentum(const TetMesh& mesh) : m_components(mesh.componentCount()) {}
 
     /// Sets the momentum prescribed by the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the corresponding
-    /// angular momentum about the centre at the positions y; for components with fixed nodes that of the velocities
-    /// relative to these. alpha includes the loads' mass damping; their frame damping adds its force and its rate.
+    /// angular momentum about the centre at the positions y, with the kick velocities; for components with fixed nodes
+    /// that of the velocities relative to these. alpha includes the loads' mass damping; their frame damping adds its
+    /// force and its rate.
     void prescribe(const Body& body, double step);
+
+    /// Sets the momentum of velocities v [m/s] at positions x [m] without loads.
+    void measure(const Body& body, double step, const std::vector<Vec3>& x, const std::vector<Vec3>& v);
+
+    /// Positions [m], velocities of their motion and velocities at its end [m/s], before advance().
+    struct Moving
+    {
+        const std::vector<Vec3>&m_x, &m_v, &m_vEnd;
+    };
+
+    /// Moves positions and velocities on by a time [s] without forces. Movable components go with their centres and
+    /// turn as free rigid bodies with the momenta prescribed at these positions, by R of freeRotation(); others, and
+    /// all elastic displacements, go along v. Elastic velocities turn by R^T: along with the body by R, and back by
+    /// Coriolis' force, R^-2, so that it does no work at any spin. The angular momentum of v+ about the new centre is
+    /// the old one. x+ and v+ may be the given vectors; without v+, only positions.
+    void advance(const Body& body, double time, const Moving& moving, std::vector<Vec3>& xNext,
+                 std::vector<Vec3>* vNext) const;
+
+    /// Turns elastic velocities as the last advance() did.
+    void turnElastic(const Body& body, std::vector<Vec3>& vectors) const;
 
     /// Adds node impulses J [N s] to the prescription. The frame damping, whose frame follows the body, does not reduce
     /// them.
@@ -33,10 +55,30 @@ public:
     /// Adds to `velocity` the rigid motion that gives every movable component its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
 
-    /// Adds h w x (w x r) at the nodes of movable components, the rotation of their velocities in a step, with the
-    /// angular velocity w of the prescription; for components that hang on fixed nodes, whose weight accelerates them,
-    /// that of the middle of the step.
-    void addTurning(const Body& body, double step, std::vector<Vec3>& change) const;
+    /// J <- Pi^T J: removes the impulses that move the components rigidly [N s].
+    void removeImpulses(const Body& body, std::vector<Vec3>& impulses) const;
+
+    /// dv <- Pi dv: removes the rigid motion from a change of velocities [m/s].
+    void removeMotion(const Body& body, std::vector<Vec3>& change) const;
+
+    /// Removes the rigid motion from velocities; at components with fixed nodes relative to these [m/s].
+    void removeRigidVelocity(const Body& body, std::vector<Vec3>& velocity) const;
+
+    /// Adds the rigid response to impulses, G (G^T M G)^-1 G^T J / (1 + h alpha) [m/s].
+    void addResponse(const Body& body, const std::vector<Vec3>& impulses, std::vector<Vec3>& change) const;
+
+    /// True if the components that move are those with rest modes, which may be taken out of A0^-1.
+    bool hasRestModes() const { return m_hasRestModes; }
+
+    /// True if any component can move rigidly.
+    bool movesAny() const { return m_anyMovable; }
+
+    /// Adds factor W x (W x r) at the nodes of movable components, with the spin W of the prescription; for components
+    /// that hang on fixed nodes, whose weight accelerates them, that of the middle of the step.
+    void addInward(const Body& body, double factor, std::vector<Vec3>& change) const;
+
+    /// Adds the impulses of the centrifugal force of a step, -h m W x (W x r), to b [N s].
+    void addCentrifugal(const Body& body, double step, std::vector<Vec3>& b) const;
 
     /// Momenta of a component per unit impulse along every axis of a contact side.
     struct Share
@@ -48,11 +90,14 @@ public:
     /// Share of a contact side at nodes, whose velocity is the sum of blocks times node velocities.
     Share shareOf(const Body& body, const int* nodes, const Mat3* blocks, int count) const;
 
-    /// Velocity change of side `of` per impulse on side `to` by the rigid motion of their common component [1/kg].
-    Mat3 answer(const Share& of, const Share& to) const;
+    /// Rigid response to the impulses of a share: linear [1/kg] and angular velocity [1/(kg m)]. Zero for a component
+    /// that cannot move.
+    Share responseTo(const Share& share) const;
+
+    bool isMovable(int component) const { return m_components[component].m_isMovable; }
 
     /// Work of node impulses J [N s] on the rigid velocities that they cause [J].
-    double rigidWork(const Body& body, const std::vector<Vec3>& impulses);
+    double rigidWork(const Body& body, const std::vector<Vec3>& impulses) const;
 
     /// Removes the rigid motion from a change of velocities, so that it gives no movable component momentum at the
     /// positions x. Invalidates the prescription.
@@ -69,7 +114,13 @@ public:
 
     /// Prescription of a body with one component and without fixed nodes, for sums over several bodies at once.
     FreeComponent onlyComponent() const;
-    void setOnlyComponent(const FreeComponent& component);
+    void setOnlyComponent(const FreeComponent& component, double impulseShare);
+
+    /// Rotation of a free rigid body of this inverse inertia [1/(kg m2)] and angular momentum L [kg m2/s] in a time
+    /// [s], by the midpoint rule on rotations in steps of at most kMaxTurn; the identity if L is zero or not finite.
+    static Mat3 freeRotation(const Mat3& inverseInertia, const Vec3& L, double time);
+    static constexpr double kMaxTurn = 0.15;  ///< [rad]: flips about the middle axis are .1 % off
+    static constexpr int kMaxTurns = 64;      ///< maximum number of steps, for spins up to one and a half turns
 
     /// The inverse of a component's inertia about its centre [kg m2].
     static Mat3 inverseInertia(const Mat3& inertia, double mass, const Vec3& center);
@@ -90,13 +141,26 @@ private:
         Vec3 m_angularBefore;      // angular momentum before the loads, for components with fixed nodes
         Mat3 m_inverseInertia;     // [1/(kg m2)]; zero if the component has collapsed to a point
         Vec3 m_linearVelocity, m_angularVelocity;
+        Mat3 m_rotation = Mat3::identity();  // of the last advance()
+        Mat3 m_inertia;                      // at its end, in the axes of its begin
+        Vec3 m_elastic;                      // angular momentum of the elastic velocities then, in these axes
+        Vec3 m_end;                          // its centre then [m]
     };
+    void clearMotions() const;
     void findCenters(const Body& body, const std::vector<Vec3>& x);
+    void beginAdvance(double time) const;
+    void endAdvance() const;
+    Vec3 spin(const Component& component) const;
+    Mat3 inverted(const Component& component, const Mat3& inertia) const;
     void findMovable(const Body& body, double step, const std::vector<Vec3>& x);
-    void addRigid(const Body& body, const std::vector<Vec3>& x, std::vector<Vec3>& velocity);
+    void findMotions() const;
+    void addRigid(const Body& body, const std::vector<Vec3>& x, bool fromCarried, std::vector<Vec3>& velocity) const;
+    void sumImpulses(const Body& body, const std::vector<Vec3>& impulses) const;
 
-    std::vector<Component> m_components;
-    bool m_anyMovable = false;  // for the last prescription; if false, nothing is done
+    mutable std::vector<Component> m_components;
+    double m_impulseShare = 1;    // 1 / (1 + h alpha) [-]
+    bool m_anyMovable = false;    // for the last prescription; if false, nothing is done
+    bool m_hasRestModes = false;  // see hasRestModes()
 };
 
 }  // namespace bullet_fem

@@ -33,27 +33,12 @@ struct StepCoefficients
     double stiffness() const { return kMin + (1 - kMin) * m_damping; }  ///< coefficient c of h^2 K', h^2 T in A
     double smoothing() const { return 2 * kMin * (1 - m_damping); }     ///< coefficient d of the unresolved part
 
-    /// Apparent strain of a rigid rotation by phi = h w a step, as a multiple of h w x (w x r), because nodes move
-    /// along chords. v grows by h w^2 / 2 as seen at y, and dv is -h w^2: 1 - 1/2 of the velocity v + dv is no strain.
-    /// For s = 0, y is longer than x by phi^2 / 8, and c - 1/8 of the length is no strain; Euler's step has no such
-    /// length term.
-    double turningOfLength() const { return (1 - m_damping) * (kMin - 0.125); }
-    static constexpr double kTurningOfVelocity = 0.5;
+    /// Apparent strain of a rigid rotation by phi = h W along chords, as a multiple of h W x (W x r) [s]: v grows by h
+    /// W^2 / 2 as seen at y, and e is -h W^2, so half of the velocity w + e is no strain. For s = 0, y is longer than x
+    /// by phi^2 / 8, and c - 1/8 of the length is no strain; Euler's step has no such length term.
+    double chordStrain(double h, double beta) const { return (1 - m_damping) * (kMin - 0.125) * h + 0.5 * beta; }
 
     static constexpr double kMin = 0.375;
-};
-
-/// Coefficients of the vectors that K' acts on besides the positions y: of the velocities v, and of their turning h w x
-/// (w x r) [s].
-struct ViscousShares
-{
-    ViscousShares(const StepCoefficients& step, double h, double beta)
-        : m_ofVelocity(step.m_damping * h + beta),
-          m_ofTurning(step.turningOfLength() * h + StepCoefficients::kTurningOfVelocity * beta)
-    {
-    }
-
-    double m_ofVelocity, m_ofTurning;
 };
 
 }  // namespace bullet_fem

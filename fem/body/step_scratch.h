@@ -11,6 +11,7 @@
 #include "fem/body/support_reactions.h"
 #include "fem/common/aligned_array.h"
 #include "fem/elements/element_scratch.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -19,20 +20,22 @@ namespace bullet_fem
 struct FactorWork
 {
     AlignedFloats m_vector, m_scratch;
+    std::vector<RestModes::Motion> m_motions;  // two per component
 };
 
 /// The vectors of QuasiNewton; empty if all elements are linear.
 struct QuasiNewtonScratch
 {
     explicit QuasiNewtonScratch(std::size_t n)
-        : m_loads(n), m_turning(n), m_position(n), m_viscous(n), m_residual(n), m_direction(n)
+        : m_loads(n), m_elastic(n), m_chord(n), m_position(n), m_viscous(n), m_residual(n), m_direction(n)
     {
     }
 
     bool isUsed() const { return !m_loads.empty(); }
 
     std::vector<Vec3> m_loads;      ///< b_0, written by the free motion [kg m/s]
-    std::vector<Vec3> m_turning;    ///< h w x (w x r) [m/s]
+    std::vector<Vec3> m_elastic;    ///< elastic part of the velocities [m/s]
+    std::vector<Vec3> m_chord;      ///< -h W x (W x r) of bodies that move along chords [m/s]
     std::vector<Vec3> m_position;   ///< z [m]
     std::vector<Vec3> m_viscous;    ///< vector that K' acts on besides z [m]
     std::vector<Vec3> m_residual;   ///< r [kg m/s]
@@ -48,6 +51,10 @@ struct StepScratch
     /// Kick positions, where the forces of the step act: x + (1 - theta) h v, with the target velocity at fixed nodes
     /// [m].
     std::vector<Vec3> m_kickPosition;
+    std::vector<Vec3> m_kickVelocity;  ///< velocities there before the forces act, fixed nodes' at the begin [m/s]
+    /// Movable components turn exactly; false for bodies in contact or held (StepLoads::m_leastDamping), whose nodes
+    /// move along chords, as their contacts and joints expect.
+    bool m_isTurned = true;
     std::vector<Vec3> m_drift;         ///< the nodes move with theta m_velocity + m_drift [m/s]; see noteMeanVelocity()
     std::vector<Vec3> m_meanVelocity;  ///< mean velocities in the free motion [m/s]
     std::vector<Vec3> m_push;          ///< velocities of the position correction: they displace but are not kept [m/s]

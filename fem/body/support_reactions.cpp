@@ -72,6 +72,11 @@ void SupportReactions::begin(const BodyModel& model, const BodyState& state, con
     m_known.assign(m_reactions.size(), Vec3());
 }
 
+void SupportReactions::noteKick(const std::vector<Vec3>& velocity)
+{
+    if (isNoting()) m_from = velocity;
+}
+
 void SupportReactions::noteRightSide(const std::vector<Vec3>& b)
 {
     for (std::size_t k = 0; k < m_known.size(); ++k) m_known[k] = b[m_reactions[k].m_node];
@@ -110,17 +115,16 @@ void SupportReactions::changeVelocity(const std::vector<unsigned char>& fixed, c
     {
         if (fixed[i]) continue;
         m_beginVelocity[i] += change[i];
-        if (m_isNewton) m_from[i] += change[i];
+        m_from[i] += change[i];
     }
 }
 
 void SupportReactions::noteEnd(const std::vector<Vec3>& velocity, const std::vector<Vec3>& unresolved, double share)
 {
-    const std::vector<Vec3>& from = m_isNewton ? m_from : m_beginVelocity;
     m_change.resize(velocity.size());
     for (std::size_t i = 0; i < velocity.size(); ++i)
     {
-        const Vec3 gained = velocity[i] - from[i];
+        const Vec3 gained = velocity[i] - m_from[i];
         m_change[i] = m_needsSmoothing ? gained + share * (m_change[i] - unresolved[i]) : gained;
     }
     if (m_step.m_damping > 0 || m_step.m_toFrame > 0) m_solvedVelocity = velocity;

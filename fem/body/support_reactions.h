@@ -39,6 +39,9 @@ public:
     /// True in a step of a body with fixed nodes; else nothing that follows is to be called, unless it says so.
     bool isNoting() const { return m_stage == Stage::step; }
 
+    /// The velocities that the linear system starts from [m/s]; of any body.
+    void noteKick(const std::vector<Vec3>& velocity);
+
     /// b of the linear system, with all rows [kg m/s].
     void noteRightSide(const std::vector<Vec3>& b);
 
@@ -112,9 +115,9 @@ private:
     const BodyModel* m_model = nullptr;
     Step m_step;
     bool m_needsSmoothing = false;  // m_change is known
-    bool m_isNewton = false;        // m_from is v0, else m_beginVelocity is
+    bool m_isNewton = false;        // quasi-Newton iterations have changed m_from
     std::vector<Vec3> m_beginPosition, m_endPosition, m_beginVelocity, m_endVelocity;
-    std::vector<Vec3> m_from;
+    std::vector<Vec3> m_from;            // velocities that the system of the reactions starts from
     std::vector<Vec3> m_solvedVelocity;  // v*, where there is damping by mass or to a frame
     std::vector<Vec3> m_change;          // c; once the step has ended, the vector to which A - M is applied
     std::vector<Vec3> m_product;

@@ -116,4 +116,14 @@ Mat3 polarRotation(const Mat3& F, const Mat3& guess)
     return warmPolarRotation(F, polished) ? polished : R;
 }
 
+Mat3 exponential(const Vec3& w)
+{
+    const double angle = norm(w);
+    if (!(angle > 0)) return Mat3::identity();
+    const Vec3 axis = (1 / angle) * w;
+    const double half = std::sin(0.5 * angle);
+    const Mat3 K = crossMatrix(axis);
+    return Mat3::identity() + std::sin(angle) * K + (2 * half * half) * (K * K);
+}
+
 }  // namespace bullet_fem

@@ -14,4 +14,7 @@ namespace bullet_fem
 /// the square of F is not finite.
 BULLETFEM_API Mat3 polarRotation(const Mat3& F, const Mat3& guess);
 
+/// The rotation by a vector w [rad], exp([w]x) [Rodrigues 1840].
+BULLETFEM_API Mat3 exponential(const Vec3& w);
+
 }  // namespace bullet_fem

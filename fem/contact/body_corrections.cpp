@@ -13,12 +13,13 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kTooStiff = 1.1;      // W may be too stiff by this factor before it is scaled
-constexpr double kMuchTooStiff = 2.5;  // threshold for joints alone, beyond which W gets a rigid response
-constexpr double kTooSoft = 0.7;       // true over predicted response below which W counts as too soft
-constexpr double kScaleMargin = 1.2;   // margin for directions without impulses
-constexpr double kNoise = 1e-4;        // share of the total work below which an outer iteration gives no information
-constexpr double kRounding = 1e-9;     // share of the body's speed below which changes of velocity give no information
+constexpr double kTooStiff = 1.5;     // W may be too stiff by this factor before it is scaled: rounds converge below 2
+constexpr double kTooSoft = 0.7;      // true over predicted response below which W counts as too soft
+constexpr double kScaleMargin = 1.2;  // margin for directions without impulses
+// Share of the work of all impulses, or of that of every new impulse alone, below which an outer iteration gives no
+// information: impulses that press a stiff body from all sides cancel each other up to the rounding of W.
+constexpr double kNoise = 1e-4;
+constexpr double kRounding = 1e-9;  // share of the body's speed below which changes of velocity give no information
 
 }  // namespace
 
@@ -87,7 +88,7 @@ void SoftBodyContacts::takeExpected(const StepSettings& settings, const Correcti
         left += dot(scratch.m_residual[i], scratch.m_residual[i]);
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);
-    if (settings.m_momentumCorrection) scratch.m_momentum.restore(body, scratch.m_velocity);
+    scratch.m_momentum.restore(body, scratch.m_velocity);
     m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
@@ -103,6 +104,7 @@ void SoftBodyContacts::giveUpExpected(const StepSettings& settings)
 void SoftBodyContacts::endCorrection()
 {
     double trueWork = 0, predictedWork = 0;  // work of the new impulses on their velocity changes
+    double aloneWork = 0;                    // predicted work of every new impulse alone
     double impulses = 0;                     // sum of the new impulses [N s]
     m_allWork = 0;                           // approximate work of all impulses
     for (int e = 0; e < size(); ++e)
@@ -112,10 +114,11 @@ void SoftBodyContacts::endCorrection()
         if (dot(m_impulse[e], m_impulse[e]) > 0) m_allWork += dot(m_impulse[e], compliance(e, e) * m_impulse[e]);
         if (!(dot(impulse, impulse) > 0)) continue;
         impulses += norm(impulse);
+        aloneWork += dot(impulse, compliance(e, e) * impulse);
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (!m_mixed && predictedWork > kNoise * m_allWork) learn({trueWork, predictedWork, impulses});
+    if (!m_mixed && predictedWork > kNoise * std::max(m_allWork, aloneWork)) learn({trueWork, predictedWork, impulses});
     m_mixed = false;
 }
 
@@ -163,54 +166,17 @@ void SoftBodyContacts::learn(const Lesson& lesson)
 {
     const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
-    if (!hasContacts()) return learnRigid(lesson);
+    if (!(softer || stiffer) || !isAboveRounding(lesson) || !hasContacts()) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
     m_learnt = true;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
-    if (m_points.points() > 0) m_points.scale(factor);
+    if (m_points.points() > 0) m_points.scaleElastic(m_body, factor, m_shares);
     if (!m_dense) return;
     formOwn();
     m_working.reset(size());
-}
-
-// A strained body has a larger rigid response than P predicts: momentum follows from the impulses whatever the strain.
-// For joints alone only this is learnt: GCR combines their outer iterations, so a scale factor of W has no effect.
-void SoftBodyContacts::learnRigid(const Lesson& lesson)
-{
-    if (!m_dense || m_rigid >= 1 || !(lesson.m_trueWork > kMuchTooStiff * lesson.m_predictedWork)) return;
-    RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
-    const double work = m_scale * momentum.rigidWork(*m_body.m_body, m_nodeIn);
-    if (!(work > 0)) return;
-    const double lacks = kScaleMargin * (lesson.m_trueWork - lesson.m_predictedWork);
-    const double share = std::min(lacks / work, 1 - m_rigid);
-    m_rigid += share;
-    m_learnt = true;
-    addRigid(m_scale * share);
-    formOwn();
-    m_working.reset(size());
-}
-
-void SoftBodyContacts::addRigid(double share)
-{
-    const RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
-    const Mat3 whole = Mat3::identity();
-    m_shares.clear();
-    for (int node : m_points.nodes()) m_shares.push_back(momentum.shareOf(*m_body.m_body, &node, &whole, 1));
-    for (const End& end : m_ends)
-        if (isGroup(end)) m_shares.push_back(momentum.shareOf(*m_body.m_body, end.m_nodes, end.m_blocks, end.m_count));
-    for (std::size_t t = 0; t < m_shares.size(); ++t)
-        for (std::size_t u = 0; u <= t; ++u)
-        {
-            const Mat3 answer = share * momentum.answer(m_shares[t], m_shares[u]);
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j)
-                    if (u < t || i >= j) m_points.add(3 * t + i, 3 * u + j, answer(i, j));
-        }
-    m_points.forgetColumns();
 }
 
 }  // namespace bullet_fem

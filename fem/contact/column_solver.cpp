@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fem/factor/rest_factor.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -45,8 +46,8 @@ ColumnSolver::ColumnSolver(const BodyModel& model, const std::vector<int>& nodes
     for (int node : nodes) markNode(node);
     m_reach.reserve(m_marked.size());
     listMarked(m_marked, m_nodeSupernodes);
-    m_rigidShare = 1 - (1 + model.factorInput().m_step * model.shape().m_material.m_massDamping) / massScale(model);
-    if (m_rigidShare > 0) m_rigid = std::make_unique<RigidLanes>(model);
+    if (model.restModes().any()) m_rigid = std::make_unique<RigidLanes>(model);
+    m_rigidShare = 1 / massScale(model);
 }
 
 void ColumnSolver::markNode(int node)
@@ -81,7 +82,7 @@ void ColumnSolver::solve(const Column* columns, int count)
         listMarked(m_marked, m_reach);
         if (m_rigid) m_rigid->remember(m_rightSide.get());
         factor.lower().solveLanes(m_reach, m_nodeSupernodes, m_rightSide.get(), m_scratch.get());
-        if (m_rigid) m_rigid->add(m_rightSide.get(), m_rigidShare);
+        if (m_rigid) m_rigid->removeStored(m_rigidShare, m_rightSide.get());
     }
     writeColumns(columns, count);
 }

@@ -13,15 +13,15 @@
 namespace bullet_fem
 {
 
-/// Solves columns of A0^-1 of a model, kPanelLanes at a time, for their rows at some nodes. A column's bits do not
-/// depend on which others are solved with it. On the low-memory path the first solve allocates.
+/// Solves columns of A0^-1 without rest modes of a model, kPanelLanes at a time, for their rows at some nodes. A
+/// column's bits do not depend on which others are solved with it. On the low-memory path the first solve allocates.
 class ColumnSolver
 {
 public:
     struct Column
     {
         int m_node, m_axis;
-        float* m_out;  ///< output: column m_axis of the blocks (A0^-1)_ij of the nodes i, nine values each, row by row
+        float* m_out;  ///< output: column m_axis of the blocks of the nodes i, nine values each, row by row
     };
 
     /// Model and nodes must outlive it. The nodes of columns are among these.
@@ -43,8 +43,8 @@ private:
     std::vector<unsigned char> m_marked;         // per supernode
     AlignedFloats m_rightSide, m_scratch;        // kPanelLanes interleaved
     std::unique_ptr<LaneGradients> m_gradients;  // on the low-memory path, from the first solve on
-    std::unique_ptr<RigidLanes> m_rigid;         // for A0 with scaled masses: correction of rigid motions
-    double m_rigidShare = 0;                     // weight of that correction [-]
+    std::unique_ptr<RigidLanes> m_rigid;         // for models with rest modes
+    double m_rigidShare = 0;                     // 1 / s of massScale() [-]
 };
 
 }  // namespace bullet_fem

@@ -13,12 +13,12 @@
 namespace bullet_fem
 {
 
-/// Cache of the constant 3x3 blocks of A0^-1 between nodes of one model that may be in contact [1/kg]. A node's column
-/// is solved at its first request and kept while there is room: within the budget, or as many as one request has
-/// needed. Bodies of one model may share a cache on one thread. On the low-memory path, whose factor is not that of A0,
-/// a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj), without the rigid motions, which are known
-/// exactly; such columns cost some ten to thirty times those of the full factor. request() allocates at its first call,
-/// for more nodes than ever before, and for more useful threads than ever before.
+/// Cache of the constant 3x3 blocks of A0^-1 without rest modes between nodes of one model that may be in contact
+/// [1/kg]. A node's column is solved at its first request and kept while there is room: within the budget, or as many
+/// as one request has needed. Bodies of one model may share a cache on one thread. On the low-memory path, whose factor
+/// is not that of A0, a column is iterated to some 1e-3 of sqrt((A0^-1)_ii (A0^-1)_jj); such columns cost some ten to
+/// thirty times those of the full factor. request() allocates at its first call, for more nodes than ever before, and
+/// for more useful threads than ever before.
 class ComplianceCache
 {
 public:
@@ -42,11 +42,11 @@ public:
     /// (if not null). Repeated nodes are allowed.
     void request(const std::vector<int>& nodes, const Threads* threads = nullptr);
 
-    /// (A0^-1)_ij between nodes i and j of the cache; the column of j must have been requested. Zero if either was
+    /// The block between nodes i and j of the cache; the column of j must have been requested. Zero if either was
     /// fixed when the factor was built; the caller adds the inverse diagonal if that node is free now.
     Mat3 block(int i, int j) const;
 
-    /// The data of block(), for kernels: the blocks (A0^-1)_ij of all nodes i of the cache, nine values each, row by
+    /// The data of block(), for kernels: the blocks of all nodes i of the cache, nine values each, row by
     /// row; that of i begins at offset(i).
     const float* column(int j) const { return m_columns[m_slotOfNode[j]].get(); }
     int offset(int i) const { return 9 * m_placeOfNode[i]; }

@@ -79,8 +79,9 @@ void AddWeighted(const WeightedArrays& in, std::size_t size, float* sum)
     }
     for (; i < size; ++i)
     {
-        sum[i] = 0;
-        for (int k = 0; k < in.m_count; ++k) sum[i] += in.m_weights[k] * in.m_arrays[k][i];
+        float s = 0;
+        for (int k = 0; k < in.m_count; ++k) s += in.m_weights[k] * in.m_arrays[k][i];
+        sum[i] = s;
     }
 }
 
@@ -127,8 +128,9 @@ void scalar::addWeighted(const WeightedArrays& in, std::size_t size, float* sum)
 {
     for (std::size_t i = 0; i < size; ++i)
     {
-        sum[i] = 0;
-        for (int k = 0; k < in.m_count; ++k) sum[i] += in.m_weights[k] * in.m_arrays[k][i];
+        float s = 0;
+        for (int k = 0; k < in.m_count; ++k) s += in.m_weights[k] * in.m_arrays[k][i];
+        sum[i] = s;
     }
 }
 

@@ -34,8 +34,8 @@ struct WeightedArrays
     int m_count = 0;
 };
 
-/// sum_i = sum_k w_k a_ki for i in [0, size), in the order of k; zero for no arrays. On the widest vectors of the
-/// processor.
+/// sum_i = sum_k w_k a_ki for i in [0, size), in the order of k; zero for no arrays. `sum` may be one of them. On the
+/// widest vectors of the processor.
 void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum);
 
 /// References in plain C++, against which the kernels are tested.

@@ -62,6 +62,8 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
             const int end = std::min(rows.m_end, static_cast<int>(problem.m_contacts.size()));
             for (int k = rows.m_begin; k < end; ++k) setContactTarget(m_rows[k], problem.m_contacts[k]);
         });
+    for (ContactRow& row : m_rows)
+        if (row.m_joint) setJointTarget(row);
     pushStarts(false);
 }
 
@@ -274,11 +276,18 @@ void ContactRows::finishRow(ContactRow& row) const
         row.m_yield = row.m_softness * row.m_rowCompliance + Vec3{row.m_spring, row.m_spring, row.m_spring};
 }
 
+// Joints want a displacement, of which the arcs of turning bodies are a part.
+void ContactRows::setJointTarget(ContactRow& row) const
+{
+    const Vec3 arc = (1 / m_settings.m_step.m_step) * softArc(row);
+    for (int i = 0; i < 3; ++i) row.m_target[i] -= dot(arc, row.m_axes[i]);
+}
+
 void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact) const
 {
     const double h = m_settings.m_step.m_step;
-    row.m_target.x = -std::max(contact.m_gap, 0.0) / h;
-    const Vec3 arc = arcOf(row);
+    const Vec3 soft = softArc(row), arc = arcOf(row) - soft;
+    row.m_target.x = -std::max(contact.m_gap + dot(soft, row.m_axes[0]), 0.0) / h;
     for (int i = 1; i < 3; ++i)
         row.m_target[i] =
             (dot(arc, row.m_axes[i]) - m_settings.m_slipFraction * dot(contact.m_slip, row.m_axes[i])) / h;

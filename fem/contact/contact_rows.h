@@ -86,6 +86,14 @@ public:
     /// Correction for the arc of a point on a kinematic rigid proxy, beyond h times its velocity at 1 - theta of the
     /// step: over a share theta of the step, divided by theta, and over the whole step [m].
     Vec3 arcOf(const ContactRow& row) const;
+
+    /// The motion of side a relative to side b beyond h times their velocities, as soft bodies turn [m].
+    Vec3 softArc(const ContactRow& row) const
+    {
+        const auto ofSide = [this](const ConstraintSide& side)
+        { return side.m_body >= 0 ? m_bodies[side.m_body].arc(side.m_end) : Vec3(); };
+        return ofSide(row.m_a) - ofSide(row.m_b);
+    }
     Vec3 arcOfMean(const ContactRow& row) const;
 
     /// StepCoefficients::theta() of a row's soft body, of two bodies the maximum, which is 1 if one uses implicit
@@ -203,6 +211,7 @@ private:
     void pushStarts(bool expected);
     void finishRows();
     void finishRow(ContactRow& row) const;
+    void setJointTarget(ContactRow& row) const;
     void setContactTarget(ContactRow& row, const ContactPoint& contact) const;
 
     Vec3 velocity(const ConstraintSide& end) const;

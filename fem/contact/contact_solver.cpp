@@ -186,9 +186,7 @@ ContactReport ContactSolver::solve(ContactProblem& problem, const ContactSetting
     begin(problem, settings);
     while (needsOuterIteration())
     {
-        for (int s = 0; s < settings.m_sweeps && sweep(); ++s)
-        {
-        }
+        for (int s = 0; s < settings.m_sweeps && sweep();) ++s;
         correct();
     }
     if (shouldRollBack()) restoreBest();
@@ -266,8 +264,8 @@ double ContactSolver::errorOfJoints() const
                     s.m_rows.share(s.m_gcr.largestSpeed()));
 }
 
-// Applies the warm start, and rejects it if it is bad: if bodies are jammed or penetrate deeply, the impulses of the
-// last step may be meaningless, and would set the scale of this step's errors and the next warm start.
+// Applies the warm start, and rejects it if it is bad even after sweeps, which balance large forces on a stiff body: in a
+// jam it may be meaningless, and would set the scale of this step's errors and the next warm start.
 void ContactSolver::guess()
 {
     Scratch& s = *m_scratch;
@@ -276,15 +274,19 @@ void ContactSolver::guess()
     s.m_guessing = true;
     correct();
     s.m_guessing = false;
-    if (!(std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without)) return;
+    const auto isBad = [&] { return std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without; };
+    if (!isBad()) return;
+    s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
+    for (int k = 0; k < s.m_settings.m_sweeps && sweep();) ++k;
+    correct();
+    if (!isBad()) return;
     s.m_rows.takeBack();
     s.m_error = 0;  // accurate solve
     correct();
     s.m_stalled = false;
 }
 
-// If W is far from the bodies' true response, as for strained bodies in a jam, an outer iteration may increase the
-// error considerably.
+// If W is far from the true response, as in a jam of strained bodies, an outer iteration may increase the error.
 void ContactSolver::noteBest()
 {
     Scratch& s = *m_scratch;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fem/contact/compliance_cache.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -17,10 +18,13 @@ std::size_t bytesOfFactor(std::size_t nodes)
     return 2 * sizeof(double) * 9 * nodes * (nodes + 1) / 2;
 }
 
-// Uses one of the two symmetric entries, independent of the order of the nodes.
+// The block of A0^-1, rest modes included. Uses one of the two symmetric entries, independent of the order of the
+// nodes.
 Mat3 blockBetween(int a, int b, const ComplianceCache& columns)
 {
-    return a >= b ? columns.block(a, b) : transpose(columns.block(b, a));
+    const BodyModel& model = columns.model();
+    const Mat3 elastic = a >= b ? columns.block(a, b) : transpose(columns.block(b, a));
+    return elastic + model.restModes().response(a, b);
 }
 
 std::shared_ptr<const EnvelopeFactor> factorBetween(const std::vector<int>& nodes, ComplianceCache& columns)

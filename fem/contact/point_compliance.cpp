@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "fem/body/step_scratch.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/compliance_kernel.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/factor/rest_modes.h"
 #include "fem/solve/warped_system.h"
 
 namespace bullet_fem
@@ -73,36 +75,74 @@ void PointCompliance::request(const ContactBody& body, const Threads* threads)
     body.m_compliance->request(m_nodes, threads);
 }
 
-void PointCompliance::form(const ContactBody& body, double scale)
+void PointCompliance::form(const ContactBody& body, double scale, const std::vector<RigidMomentum::Share>& shares)
 {
     m_rows = order();
     growTo(m_N, m_rows * 3 * slots());
     turnNodes(body);
     formNodeColumns(body, scale);
-    mirrorNodeColumns();
     if (m_own > 0) std::fill(column(3 * m_nodes.size()), column(3 * slots()), 0.f);
     m_floatWeight.assign(m_weight.begin(), m_weight.end());
-    forgetColumns();
     m_columns.reserve(3 * m_rows * points());
     m_terms.reserve(SurfacePoint::kMaxNodes);
+    combine(body, shares, 1, 1);
 }
 
-void PointCompliance::scale(double factor)
+void PointCompliance::scaleElastic(const ContactBody& body, double factor,
+                                   const std::vector<RigidMomentum::Share>& shares)
 {
-    for (std::size_t i = 0; i < m_rows * 3 * slots(); ++i) m_N[i] *= static_cast<float>(factor);
+    combine(body, shares, factor, 1 - factor);
+}
+
+// N = ofN N + ofRigid G (G^T M G)^-1 G^T, in the rows of the nodes.
+void PointCompliance::combine(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, double ofN,
+                              double ofRigid)
+{
+    growTo(m_rigid, 6 * m_rows);
+    const int components = body.m_body->m_model->mesh().componentCount();
+    for (int c = 0; c < components; ++c) combineColumns(body, shares, c, ofN, ofRigid);
+    mirrorNodeColumns();
     forgetColumns();
+}
+
+void PointCompliance::combineColumns(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares,
+                                     int component, double ofN, double ofRigid)
+{
+    const RigidMomentum& momentum = body.m_body->m_workspace.scratch().m_momentum;
+    const auto isOf = [&](const RigidMomentum::Share& share) { return share.m_component == component; };
+    if (std::none_of(shares.begin(), shares.end(), isOf)) return;
+    std::fill(m_rigid.begin(), m_rigid.begin() + static_cast<std::ptrdiff_t>(6 * m_rows), 0.f);
+    for (std::size_t t = 0; t < shares.size(); ++t)
+        for (std::size_t k = 0; k < 6 && isOf(shares[t]); ++k)
+            for (std::size_t i = 0; i < 3; ++i)
+                m_rigid[k * m_rows + 3 * t + i] =
+                    static_cast<float>(k < 3 ? shares[t].m_linear(static_cast<int>(k), static_cast<int>(i))
+                                             : shares[t].m_angular(static_cast<int>(k - 3), static_cast<int>(i)));
+    const float* arrays[7] = {};
+    float weights[7] = {static_cast<float>(ofN)};
+    for (std::size_t k = 0; k < 6; ++k) arrays[k + 1] = &m_rigid[k * m_rows];
+    for (std::size_t t = 0; t < shares.size(); ++t)
+    {
+        if (!isOf(shares[t])) continue;
+        const RigidMomentum::Share response = momentum.responseTo(shares[t]);
+        for (int c = 0; c < 3; ++c)
+        {
+            for (int k = 0; k < 3; ++k)
+            {
+                weights[1 + k] = static_cast<float>(ofRigid * response.m_linear(k, c));
+                weights[4 + k] = static_cast<float>(ofRigid * response.m_angular(k, c));
+            }
+            float* values = column(3 * t + static_cast<std::size_t>(c));
+            arrays[0] = values;
+            addWeighted({arrays, weights, 7}, m_rows, values);
+        }
+    }
 }
 
 void PointCompliance::forgetColumns()
 {
     m_columnsOf.assign(points(), -1);
     m_columnsFormed = 0;
-}
-
-void PointCompliance::add(std::size_t i, std::size_t j, double value)
-{
-    column(j)[i] += static_cast<float>(value);
-    if (i != j) column(i)[j] = column(j)[i];
 }
 
 void PointCompliance::set(std::size_t i, std::size_t j, double value)
@@ -198,8 +238,29 @@ void PointCompliance::formNodeColumns(const ContactBody& body, double scale)
         for (int k = 0; k < 9; ++k)
             source.m_source[k] = static_cast<float>(scale) * columns[kColumnOfRotation * (k % 3) + k / 3];
         turnColumn(source, column(3 * t));
+        addRestModes(body, scale, t);
         if (factor.position(node) >= 0 || body.m_body->m_state.m_fixed[node]) continue;
         for (int c = 0; c < 3; ++c) column(3 * t + c)[3 * t + c] = static_cast<float>(scale / factor.diagonal(node));
+    }
+}
+
+// The rest modes of components that had other fixed nodes when the factor was built, and cannot move as a whole now.
+void PointCompliance::addRestModes(const ContactBody& body, double scale, std::size_t slot)
+{
+    const BodyModel& model = *body.m_body->m_model;
+    const int component = model.mesh().nodeComponent()[m_nodes[slot]];
+    if (!model.restModes().components()[component].moves() ||
+        body.m_body->m_workspace.scratch().m_momentum.isMovable(component))
+        return;
+    const WarpedPreconditioner P(*body.m_body);
+    const std::vector<unsigned char>& fixed = body.m_body->m_state.m_fixed;
+    const Mat3 turned = scale * transpose(P.rotation(m_nodes[slot]));
+    for (std::size_t t = slot; t < m_nodes.size() && !fixed[m_nodes[slot]]; ++t)
+    {
+        if (fixed[m_nodes[t]]) continue;
+        const Mat3 block = P.rotation(m_nodes[t]) * model.restModes().response(m_nodes[t], m_nodes[slot]) * turned;
+        for (int i = 0; i < 3; ++i)
+            for (int c = 0; c < 3; ++c) column(3 * slot + c)[3 * t + i] += static_cast<float>(block(i, c));
     }
 }
 

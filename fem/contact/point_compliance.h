@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact/contact_problem.h"
+#include "fem/body/rigid_momentum.h"
 #include "fem/contact/response_kernel.h"
 
 namespace bullet_fem
 {
 
-/// Compliance between points of a body's surface: W = S^T N S, with the blocks N_ij = s R_i (A0^-1)_ij R_j^T between
-/// nodes, the points' weights S and a scale s. Nodes outside the factor have only the inverse diagonal in N, fixed ones
-/// zero. Points outnumber the nodes, and few of them ever carry an impulse: W is never formed as a whole, but only the
-/// required columns N S. A side that is no weighted mean of nodes has a slot of its own after the nodes, whose part of
-/// N is set from outside. Symmetric. Grows, never shrinks.
+/// Compliance between points of a body's surface: W = S^T N S, with the points' weights S and the blocks N_ij between
+/// nodes: the rigid response at the present positions, plus an elastic one, a scale s times R_i B_ij R_j^T, B = A0^-1
+/// without rest modes. Nodes outside the factor have only the inverse diagonal in B, fixed ones zero in N. Points
+/// outnumber the nodes, and few of them ever carry an impulse: W is never formed as a whole, but only the required
+/// columns N S. A side that is no weighted mean of nodes has a slot of its own after the nodes, whose part of N is set
+/// from outside. Symmetric. Grows, never shrinks.
 class PointCompliance
 {
 public:
@@ -34,11 +36,11 @@ public:
     /// Bodies of one cache must not request concurrently.
     void request(const ContactBody& body, const Threads* threads = nullptr);
 
-    /// Forms N for scale s; zero for points with slots of their own.
-    void form(const ContactBody& body, double scale);
+    /// Forms N for scale s and the slots' shares in rigid motion; zero for points with slots of their own.
+    void form(const ContactBody& body, double scale, const std::vector<RigidMomentum::Share>& shares);
 
-    /// Scales N.
-    void scale(double factor);
+    /// Multiplies the elastic part of N by a factor.
+    void scaleElastic(const ContactBody& body, double factor, const std::vector<RigidMomentum::Share>& shares);
 
     int points() const { return static_cast<int>(m_first.size()) - 1; }
 
@@ -55,11 +57,6 @@ public:
 
     /// Entries of N that form() leaves out: set(i, j) sets (j, i) as well; indices are three times a slot plus an axis.
     void set(std::size_t i, std::size_t j, double value);
-
-    /// Adds to entries (i, j) and (j, i) of N. Call forgetColumns() after the last change, because columns of points
-    /// were formed from the former N.
-    void add(std::size_t i, std::size_t j, double value);
-    void forgetColumns();
 
     /// Interpolation of slot values at a point.
     Vec3 read(int point, const std::vector<double>& slotValues) const;
@@ -79,6 +76,11 @@ private:
     float* column(std::size_t j) { return m_N.data() + j * m_rows; }
     void turnNodes(const ContactBody& body);
     void formNodeColumns(const ContactBody& body, double scale);
+    void addRestModes(const ContactBody& body, double scale, std::size_t slot);
+    void combine(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, double ofN, double ofRigid);
+    void combineColumns(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, int component,
+                        double ofN, double ofRigid);
+    void forgetColumns();
     void mirrorNodeColumns();
 
     std::vector<int> m_first;  // per point: start in the weights, then the end
@@ -96,6 +98,7 @@ private:
     std::vector<float> m_columns;    // columns of N S, with room for all points
     int m_columnsFormed = 0;
     std::vector<const float*> m_terms;  // arrays of one sum
+    std::vector<float> m_rigid;         // shares of all slots in the six momenta of a component, momentum by momentum
 };
 
 }  // namespace bullet_fem

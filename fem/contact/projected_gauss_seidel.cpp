@@ -45,6 +45,7 @@ void ProjectedGaussSeidel::begin()
     m_works.assign(rows, 0);
     m_mixing.begin();
     m_coarse.begin();
+    m_newton.begin();
     restart();
     divideRows();
 }
@@ -142,6 +143,9 @@ bool ProjectedGaussSeidel::sweep(double tolerance)
         sweepAll();
     }
     if (mixes) m_mixing.note(m_working);
+    if (m_rows.problem().m_joints.empty() && m_lastChange > tolerance && !m_rows.isRunaway(m_lastSpeed) &&
+        m_newton.step(m_working, m_lastChange))
+        m_mixing.start(m_working);
     return m_lastChange > tolerance || !restIsDone(tolerance);
 }
 

@@ -9,6 +9,7 @@
 #include "fem/contact/contact_rows.h"
 #include "fem/contact/joint_system.h"
 #include "fem/contact/sweep_parts.h"
+#include "fem/contact/truncated_newton.h"
 
 namespace bullet_fem
 {
@@ -21,7 +22,7 @@ class ProjectedGaussSeidel
 public:
     /// Both must outlive it.
     ProjectedGaussSeidel(ContactRows& rows, JointSystem& joints)
-        : m_rows(rows), m_joints(joints), m_mixing(rows), m_coarse(rows)
+        : m_rows(rows), m_joints(joints), m_mixing(rows), m_coarse(rows), m_newton(rows)
     {
     }
 
@@ -62,6 +63,7 @@ private:
     JointSystem& m_joints;
     AndersonAcceleration m_mixing;
     CoarseCorrection m_coarse;
+    TruncatedNewton m_newton;
     SweepParts m_parts;                  // parts of the rows
     std::vector<int> m_working;          // rows of the working set, part by part
     std::vector<unsigned char> m_works;  // per row: in the working set

@@ -38,6 +38,7 @@ double speedByLoads(const Body& body, double step)
 void SoftBodyContacts::clear(const ContactBody& body, const StepSettings& settings)
 {
     m_body = body;
+    m_step = settings.m_step;
     m_theta = StepCoefficients(settings, *body.m_body).theta();
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
     if (m_theta < 1) m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
@@ -96,7 +97,6 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
     m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
     m_firstJoint = std::min(m_firstJoint, size());
-    m_rigid = 0;
     m_firstPoint = m_dense ? 0 : m_firstJoint;
     m_points.clear(nodes);
     for (int e = m_firstPoint; e < size(); ++e)
@@ -105,6 +105,7 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
         else
             m_points.add(m_ends[e].m_point);
     m_points.numberSlots();
+    m_shares.reserve(m_points.slots());
     if (!m_dense)
     {
         m_velocity.assign(m_ends.size(), Vec3());
@@ -113,7 +114,6 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
     }
     m_working.reset(size());
     m_responses.reserve(m_ends.size());
-    m_shares.reserve(m_points.slots());
     m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
@@ -132,10 +132,24 @@ void SoftBodyContacts::form()
     m_formed = true;
     if (!m_dense) estimateDiagonal();
     if (m_points.points() == 0) return;
-    m_points.form(m_body, m_scale);
+    findShares();
+    m_points.form(m_body, m_scale, m_shares);
     for (int e = m_firstPoint; e < size(); ++e)
         if (isGroup(m_ends[e])) formGroup(e);
     if (m_dense) formOwn();
+}
+
+// The slots' shares in the rigid motion.
+void SoftBodyContacts::findShares()
+{
+    const RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
+    const Mat3 whole = Mat3::identity();
+    m_shares.clear();
+    for (int node : m_points.nodes()) m_shares.push_back(momentum.shareOf(*m_body.m_body, &node, &whole, 1));
+    for (int e = m_firstPoint; e < size(); ++e)
+        if (isGroup(m_ends[e]))
+            m_shares.push_back(
+                momentum.shareOf(*m_body.m_body, m_ends[e].m_nodes, m_ends[e].m_blocks, m_ends[e].m_count));
 }
 
 void SoftBodyContacts::formOwn()
@@ -146,7 +160,7 @@ void SoftBodyContacts::formOwn()
 // Couplings between a group of nodes, the nodes of the points, and the groups from it on.
 void SoftBodyContacts::formGroup(int e)
 {
-    const WarpedCompliance P(*m_body.m_body);
+    const WarpedCompliance P(*m_body.m_body, m_scale);
     const std::vector<int>& nodes = m_points.nodes();
     const std::size_t own = 3 * static_cast<std::size_t>(m_points.slot(e - m_firstPoint));
     for (std::size_t c = 0; c < 3; ++c)
@@ -159,7 +173,7 @@ void SoftBodyContacts::formGroup(int e)
         const auto set = [&](std::size_t slot, const Vec3& w)
         {
             for (std::size_t i = 0; i < 3; ++i)
-                if (3 * slot != own || i >= c) m_points.set(3 * slot + i, own + c, m_scale * w[static_cast<int>(i)]);
+                if (3 * slot != own || i >= c) m_points.set(3 * slot + i, own + c, w[static_cast<int>(i)]);
         };
         for (std::size_t t = 0; t < nodes.size(); ++t) set(t, m_nodeOut[nodes[t]]);
         for (int f = e; f < size(); ++f)
@@ -178,7 +192,7 @@ void SoftBodyContacts::estimateDiagonal()
     const auto signs = [&sign](int k) -> Vec3 { return {sign(k), sign(k >> 1), sign(k ^ (k >> 2))}; };
     std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
     for (int k = 0; k < samples; ++k) scatter(endOf(k), signs(k), m_nodeIn);
-    WarpedCompliance(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
+    WarpedCompliance(*m_body.m_body, m_scale).apply(m_nodeIn, m_nodeOut);
     double sum = 0;
     for (int k = 0; k < samples; ++k) sum += dot(signs(k), read(endOf(k), m_nodeOut)) / 3;
     m_meanDiagonal = Mat3::diagonal(sum / samples);
@@ -188,14 +202,13 @@ Mat3 SoftBodyContacts::compliance(int e, int f) const
 {
     if (m_dense && e == f) return m_own[e];
     if (std::min(e, f) >= m_firstPoint) return m_points.block(e - m_firstPoint, f - m_firstPoint);
-    return e == f ? m_scale * m_meanDiagonal : Mat3();
+    return e == f ? m_meanDiagonal : Mat3();
 }
 
 int SoftBodyContacts::nodeOf(int e) const
 {
     const SurfacePoint& point = m_ends[e].m_point;
-    if (m_rigid > 0 || isGroup(m_ends[e]) || e < m_firstPoint || point.m_count != 1 || point.m_weights[0] != 1)
-        return -1;
+    if (isGroup(m_ends[e]) || e < m_firstPoint || point.m_count != 1 || point.m_weights[0] != 1) return -1;
     const int node = point.m_nodes[0];
     const bool moves = !m_body.m_body->m_state.m_fixed[node] && m_body.m_body->m_model->factor().position(node) >= 0;
     return moves ? node : -1;
@@ -209,6 +222,11 @@ Mat3 SoftBodyContacts::rotation(int node) const
 Vec3 SoftBodyContacts::trueVelocity(int e) const
 {
     return read(m_ends[e], bullet_fem::velocity(*m_body.m_body));
+}
+
+Vec3 SoftBodyContacts::arc(int e) const
+{
+    return m_theta < 1 ? Vec3() : m_step * read(m_ends[e], m_body.m_body->m_workspace.scratch().m_drift);
 }
 
 Vec3 SoftBodyContacts::meanVelocity(int e) const
@@ -252,8 +270,8 @@ void SoftBodyContacts::flush()
     if (m_dense) return refresh();
     if (m_ends.empty() || !gatherBeyond(m_seen)) return;
     m_seen.assign(m_impulse.begin(), m_impulse.end());
-    WarpedCompliance(*m_body.m_body).apply(m_nodeIn, m_nodeOut);
-    for (int e = 0; e < size(); ++e) m_velocity[e] += m_scale * read(m_ends[e], m_nodeOut);
+    WarpedCompliance(*m_body.m_body, m_scale).apply(m_nodeIn, m_nodeOut);
+    for (int e = 0; e < size(); ++e) m_velocity[e] += read(m_ends[e], m_nodeOut);
 }
 
 void SoftBodyContacts::measure()

@@ -41,7 +41,7 @@ public:
     /// True if the body has the columns of A0^-1 at a node: joints at such nodes may be points.
     bool serves(int node) const { return m_body.m_compliance->serves(node); }
 
-    /// The node of a side, if it is a single movable node and its W is s R (A0^-1) R^T; else -1. Call after form().
+    /// The node of a side, if it is a single movable node; else -1. Call after form().
     int nodeOf(int e) const;
 
     /// R of a node, s, and a factor of the blocks (A0^-1) between nodes, three rows per node.
@@ -89,6 +89,10 @@ public:
 
     /// Predicted velocity of a side [m/s]; for a dense body outside the working set that of the last refresh().
     Vec3 velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : known(e); }
+
+    /// Motion of a side over the step beyond h times its velocity at the end, by the body's turn in an implicit Euler
+    /// step: its nodes go along arcs [m].
+    Vec3 arc(int e) const;
 
     /// Mean velocity of a side over the step, from velocity() and the velocity before [m/s].
     Vec3 meanVelocity(int e) const;
@@ -173,6 +177,7 @@ private:
     void scatter(const End& end, const Vec3& impulse, std::vector<Vec3>& nodeImpulses) const;
     Vec3 known(int e) const { return m_dense ? m_points.read(e, m_slotVelocity) : m_velocity[e]; }
     Vec3 before(int e) const { return m_dense ? m_points.read(e, m_slotBefore) : m_before[e]; }
+    void findShares();
     void formGroup(int e);
     void measureSlots();
     void estimateDiagonal();
@@ -185,12 +190,11 @@ private:
     void see(int e);
     bool isAboveRounding(const Lesson& lesson) const;
     void learn(const Lesson& lesson);
-    void learnRigid(const Lesson& lesson);
-    void addRigid(double share);
 
     ContactBody m_body;
     bool m_dense = true;
     double m_loadSpeed = 0;  // [m/s]
+    double m_step = 0;       // h [s]
     double m_theta = 1;      // see StepCoefficients
     double m_mass = 0;       // [kg]
     bool m_formed = false;
@@ -211,9 +215,8 @@ private:
     bool m_pushedAtRest = false;
     std::vector<Response> m_responses;           // responses of a refresh
     std::vector<Vec3> m_nodeIn, m_nodeOut;       // impulses and velocities of all nodes
-    Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee, without the learnt scale
-    double m_scale = 1;                          // learnt scale of W
-    double m_rigid = 0;                          // learnt: share of the rigid response in W, in [0, 1]
+    Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee
+    double m_scale = 1;                          // learnt scale of the elastic part of W
     std::vector<RigidMomentum::Share> m_shares;  // per slot
     bool m_learnt = false;                       // the last correction changed the scale
     bool m_tooSoft = false;                      // W was too soft in a correction of this problem

@@ -14,6 +14,7 @@
 #include "fem/common/message.h"
 #include "fem/elements/model_elements.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -99,6 +100,7 @@ std::shared_ptr<const BodyModel> BodyModel::create(std::shared_ptr<const RestSha
     factor.m_input = std::move(input);
     factor.m_materials = model->m_shape->m_materials;
     factor.m_factor = std::make_shared<const RestFactor>(*model->m_shape, factor.m_input, factor.m_report);
+    model->m_restModes = std::make_unique<const RestModes>(*model);
     model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
     factor.m_report.m_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return model;
@@ -114,6 +116,7 @@ std::shared_ptr<const BodyModel> BodyModel::withFactor(std::shared_ptr<const Res
     std::shared_ptr<BodyModel> model(new BodyModel);
     model->m_shape = std::move(shape);
     model->m_factor = std::move(factor);
+    model->m_restModes = std::make_unique<const RestModes>(*model);
     model->m_elements = std::make_unique<const ModelElements>(*model->m_shape);
     model->m_materialMismatch = mismatch(*model->m_shape, model->m_factor.m_materials, model->m_factor.m_input.m_step);
     return model;

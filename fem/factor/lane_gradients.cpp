@@ -101,7 +101,6 @@ int LaneGradients::solve(double tolerance, float* y, float* scratch)
         }
     }
     m_rigid.deflateSolution(v.m_x);
-    m_rigid.add(v.m_x);
     std::copy(v.m_x, v.m_x + size, y);
     return iterations;
 }

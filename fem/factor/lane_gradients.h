@@ -42,12 +42,11 @@ void advanceLanes(const LaneVectors& v, const LaneNumbers& step);
 LaneNumbers dotLanes(const LaneVectors& v);
 
 /// Columns of A0^-1 on the low-memory path, whose factor is not that of A0: solves kPanelLanes right-hand sides at a
-/// time by conjugate gradients [Hestenes & Stiefel 1952] in single precision, preconditioned by that factor. The rigid
-/// motions that fixed nodes permit are treated in closed form, and all vectors are free of them. A lane ends when an
-/// iteration changes the energy x . A0 x by less than tolerance^2 of it. The relative error of x in the energy norm,
-/// without rigid motions, is then less than the tolerance, or up to twice that if convergence is slow; it also bounds
-/// the error of (A0^-1)_ij relative to sqrt((A0^-1)_ii (A0^-1)_jj). A lane's bits do not depend on the other lanes.
-/// Allocates in the constructor only.
+/// time by conjugate gradients [Hestenes & Stiefel 1952] in single precision, preconditioned by that factor. All
+/// vectors are free of the rest modes. A lane ends when an iteration changes the energy x . A0 x by less than
+/// tolerance^2 of it. The relative error of x in the energy norm, without rigid motions, is then less than the
+/// tolerance, or up to twice that if convergence is slow; it also bounds the error of (A0^-1)_ij relative to
+/// sqrt((A0^-1)_ii (A0^-1)_jj). A lane's bits do not depend on the other lanes. Allocates in the constructor only.
 class LaneGradients
 {
 public:
@@ -56,8 +55,8 @@ public:
     /// The model must outlive this object, and its factor must be that of the low-memory path. Allocates.
     explicit LaneGradients(const BodyModel& model);
 
-    /// y <- A0^-1 y in all lanes. `scratch` is that of PackedFactor::solveLanes(). Returns the maximum number of
-    /// iterations of a lane.
+    /// y <- A0^-1 y without rest modes in all lanes. `scratch` is that of PackedFactor::solveLanes(). Returns the
+    /// maximum number of iterations of a lane.
     int solve(double tolerance, float* y, float* scratch);
 
 private:

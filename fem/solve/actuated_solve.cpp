@@ -94,8 +94,7 @@ void beginActuation(Body& body, const StepSettings& settings)
     StepScratch& scratch = body.m_workspace.scratch();
     const StepCoefficients coefficients(settings, body);
     const double h = settings.m_step;
-    const ViscousShares shares(coefficients, h, 0);
-    const PullFactors factors = {h, shares.m_ofVelocity, shares.m_ofTurning, coefficients.stiffness() * h * h};
+    const PullFactors factors = {h, coefficients.m_damping * h, coefficients.stiffness() * h * h};
     scratch.m_actuation.begin(body.m_actuators, factors, scratch.m_kickPosition, scratch.m_velocity);
 }
 

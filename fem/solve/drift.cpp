@@ -12,13 +12,23 @@ namespace bullet_fem
 namespace
 {
 
-// The non-rigid part of an external change of velocities, which acts as impulses.
-void findStrainedChange(Body& body, double step, std::vector<Vec3>& change)
+// Splits an external change of velocities, which acts as impulses: its rigid part is in `velocity` at once, and the
+// rest in m_strained.
+void takeOutsideChange(Body& body, double step, std::vector<Vec3>& velocity)
 {
     const BodyState& s = body.m_state;
+    StepScratch& scratch = body.m_workspace.scratch();
     const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;
+    std::vector<Vec3>& change = scratch.m_strained;
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = s.m_fixed[i] ? Vec3() : s.m_v[i] - prior[i];
-    body.m_workspace.scratch().m_momentum.removeMomentum(body, step, s.m_x, change);
+    scratch.m_momentum.removeMomentum(body, step, s.m_x, change);
+    for (std::size_t i = 0; i < change.size(); ++i) velocity[i] -= change[i];
+}
+
+// Positions along chords.
+void moveOn(double time, const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& end)
+{
+    for (std::size_t i = 0; i < x.size(); ++i) end[i] = x[i] + time * v[i];
 }
 
 }  // namespace
@@ -28,30 +38,50 @@ void beginDrift(Body& body, const StepSettings& settings)
     StepScratch& scratch = body.m_workspace.scratch();
     const BodyState& s = body.m_state;
     const double first = 1 - StepCoefficients(settings, body).theta();
-    scratch.m_isStrained = first > 0 && !body.m_loads.m_priorVelocity.empty();
-    if (scratch.m_isStrained) findStrainedChange(body, settings.m_step, scratch.m_strained);
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
+    std::vector<Vec3>&y = scratch.m_kickPosition, &v = scratch.m_kickVelocity, &moving = scratch.m_drift;
+    v = s.m_v;
+    scratch.m_isStrained = !body.m_loads.m_priorVelocity.empty();
+    if (scratch.m_isStrained) takeOutsideChange(body, settings.m_step, v);
+    scratch.m_isTurned = !body.m_loads.m_isHeld;
+    if (!(first > 0))
     {
-        const Vec3 v = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : s.m_v[i];
-        scratch.m_drift[i] = first * (scratch.m_isStrained ? v - scratch.m_strained[i] : v);
-        scratch.m_kickPosition[i] = s.m_x[i] + settings.m_step * scratch.m_drift[i];
+        y = s.m_x;
+        return;
     }
+    for (std::size_t i = 0; i < v.size(); ++i) moving[i] = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : v[i];
+    if (!scratch.m_isTurned) return moveOn(first * settings.m_step, s.m_x, moving, y);
+    scratch.m_momentum.measure(body, settings.m_step, s.m_x, moving);
+    scratch.m_momentum.advance(body, first * settings.m_step, {s.m_x, moving, v}, y, &v);
+    if (scratch.m_isStrained) scratch.m_momentum.turnElastic(body, scratch.m_strained);
 }
 
 void driftByOutsideChange(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    if (!scratch.m_isStrained) return;
     const double first = 1 - StepCoefficients(settings, body).theta();
+    if (!scratch.m_isStrained || !(first > 0)) return;
     std::vector<Vec3>& impulses = scratch.m_strained;
     for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] *= first * body.m_state.m_mass[i];
-    WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
+    WarpedCompliance(body, scratch.m_complianceScale, settings.m_threads).apply(impulses, scratch.m_increment);
     for (std::size_t i = 0; i < impulses.size(); ++i)
     {
-        scratch.m_push[i] = scratch.m_complianceScale * scratch.m_increment[i];
+        scratch.m_push[i] = scratch.m_increment[i];
         scratch.m_drift[i] += scratch.m_push[i];
     }
     scratch.m_isPushed = true;
+}
+
+void noteArcs(Body& body, const StepSettings& settings)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    const double theta = StepCoefficients(settings, body).theta(), perStep = 1 / settings.m_step;
+    const std::vector<Vec3>& v = scratch.m_kickVelocity;
+    std::vector<Vec3>& drift = scratch.m_drift;
+    if (scratch.m_isTurned)
+        scratch.m_momentum.advance(body, theta * settings.m_step, {scratch.m_kickPosition, v, v}, drift, nullptr);
+    else
+        moveOn(theta * settings.m_step, scratch.m_kickPosition, v, drift);
+    for (std::size_t i = 0; i < drift.size(); ++i) drift[i] = perStep * (drift[i] - body.m_state.m_x[i]) - theta * v[i];
 }
 
 void noteMeanVelocity(Body& body, const StepSettings& settings)
@@ -62,12 +92,23 @@ void noteMeanVelocity(Body& body, const StepSettings& settings)
         scratch.m_meanVelocity[i] = scratch.m_drift[i] + theta * scratch.m_velocity[i];
 }
 
-void endDrift(Body& body, const StepSettings& settings)
+void endDrift(Body& body, const StepSettings& settings, double share)
 {
-    const StepScratch& scratch = body.m_workspace.scratch();
-    std::vector<Vec3>& x = body.m_state.m_x;
+    StepScratch& scratch = body.m_workspace.scratch();
     const double h = settings.m_step, second = h * StepCoefficients(settings, body).theta();
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = scratch.m_kickPosition[i] + second * scratch.m_velocity[i];
+    std::vector<Vec3>&x = body.m_state.m_x, &end = scratch.m_drift, &unresolved = scratch.m_increment;
+    if (!scratch.m_isTurned)
+    {
+        moveOn(second, scratch.m_kickPosition, scratch.m_velocity, x);
+        if (share > 0) scratch.m_momentum.removeMomentum(body, h, x, unresolved);
+    }
+    end = scratch.m_velocity;
+    for (std::size_t i = 0; i < end.size() && share > 0; ++i) end[i] -= share * unresolved[i];
+    if (scratch.m_isTurned)
+        scratch.m_momentum.advance(body, second, {scratch.m_kickPosition, scratch.m_velocity, end}, x,
+                                   &body.m_state.m_v);
+    else
+        body.m_state.m_v = end;
     for (std::size_t i = 0; i < x.size() && scratch.m_isPushed; ++i) x[i] += h * scratch.m_push[i];
 }
 

@@ -8,10 +8,17 @@ namespace bullet_fem
 {
 
 /// The motion of a body from x to x+ in a step: first to y, where the forces of the step act, then onward with the
-/// velocities that they cause. All functions write to the body's scratch.
+/// velocities that they cause. Both parts turn movable components exactly (RigidMomentum::advance()). All functions
+/// write to the body's scratch.
 
-/// Kick position y = x + (1 - theta) h v; fixed nodes move with their target velocities.
+/// Kick positions y and velocities: x and v after the share 1 - theta of the step without forces; fixed nodes move with
+/// their target velocities. Without the strain of an external change of velocities, which acts as impulses m_strained /
+/// m at y.
 void beginDrift(Body& body, const StepSettings& settings);
+
+/// Computes m_drift, the motion beyond theta h times the end velocities: that to y, and the arcs along which nodes turn
+/// from there with the momenta prescribed by the loads.
+void noteArcs(Body& body, const StepSettings& settings);
 
 /// After the free motion's solve: moves the nodes also by the share (1 - theta) of an external change of velocities,
 /// applied as impulses through the precomputed factor, as contact impulses are. Before, only its rigid part is
@@ -21,7 +28,8 @@ void driftByOutsideChange(Body& body, const StepSettings& settings);
 /// Computes the nodes' mean velocities in the free motion, whose end velocities are in the scratch.
 void noteMeanVelocity(Body& body, const StepSettings& settings);
 
-/// Position x+ = y + theta h v* + h push.
-void endDrift(Body& body, const StepSettings& settings);
+/// Positions x+ and velocities v+ of the state: y and v* after the share theta of the step, plus h push; v+ without
+/// `share` of the scratch's m_increment, the unresolved part of the velocities.
+void endDrift(Body& body, const StepSettings& settings, double share);
 
 }  // namespace bullet_fem

@@ -36,7 +36,10 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
     ConjugateGradientStop corrections = stop;
     corrections.m_tolerance = std::max(stop.m_tolerance, kInexact);
     corrections.m_steady = false;
-    findTurning();
+    newton.m_elastic = scratch.m_kickVelocity;
+    scratch.m_momentum.removeRigidVelocity(m_body, newton.m_elastic);
+    std::fill(newton.m_chord.begin(), newton.m_chord.end(), Vec3());
+    if (!scratch.m_isTurned) scratch.m_momentum.addInward(m_body, -m_settings.m_step, newton.m_chord);
     double left = findResidual();
     for (int k = 0; k < kMaxCorrections && left > kLeftShare * scale && std::isfinite(left); ++k)
     {
@@ -54,15 +57,6 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
     }
 }
 
-// h w x (w x r): velocities that rotate with the body are no strain.
-void QuasiNewton::findTurning()
-{
-    StepScratch& scratch = m_body.m_workspace.scratch();
-    std::vector<Vec3>& turning = scratch.m_newton.m_turning;
-    std::fill(turning.begin(), turning.end(), Vec3());
-    scratch.m_momentum.addTurning(m_body, m_settings.m_step, turning);
-}
-
 // The residual r of the equation in quasi_newton.h at z; also evaluates A there.
 double QuasiNewton::findResidual()
 {
@@ -74,10 +68,9 @@ double QuasiNewton::findResidual()
     std::vector<Vec3>&z = newton.m_position, &r = newton.m_residual, &w = newton.m_viscous;
     for (std::size_t i = 0; i < z.size(); ++i)
     {
-        const Vec3 &dv = scratch.m_increment[i], &turning = newton.m_turning[i];
-        z[i] = scratch.m_kickPosition[i] +
-               h * (c.m_damping * state.m_v[i] + c.stiffness() * dv - c.turningOfLength() * turning);
-        w[i] = beta * (state.m_v[i] + dv - StepCoefficients::kTurningOfVelocity * turning);
+        const Vec3 &dv = scratch.m_increment[i], &v = newton.m_elastic[i], &chord = newton.m_chord[i];
+        z[i] = scratch.m_kickPosition[i] + h * (c.m_damping * v + c.stiffness() * dv) + c.chordStrain(h, 0) * chord;
+        w[i] = beta * (v + dv) + c.chordStrain(0, beta) * chord;
         r[i] = {};
     }
     prepareWarpedSystem(m_body, m_settings, z, w, r);
@@ -85,6 +78,7 @@ double QuasiNewton::findResidual()
     const std::vector<double>& mass = scratch.m_elements.m_scaledMass;
     for (std::size_t i = 0; i < r.size(); ++i)
         r[i] = state.m_fixed[i] ? Vec3() : newton.m_loads[i] + h * r[i] - mass[i] * scratch.m_increment[i];
+    scratch.m_momentum.removeImpulses(m_body, r);
     return std::sqrt(dot(r, r));
 }
 

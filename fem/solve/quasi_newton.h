@@ -33,7 +33,6 @@ public:
     void correct(const ConjugateGradientStop& stop, SolveReport& report);
 
 private:
-    void findTurning();
     double findResidual();  // returns |r|
     void searchLine(double slope);
     void move(double length);

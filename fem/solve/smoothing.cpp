@@ -45,14 +45,11 @@ bool findChange(Body& body, const StepSettings& settings)
     const StepCoefficients coefficients(settings, body);
     if (!(coefficients.smoothing() > 0)) return false;
     StepScratch& scratch = body.m_workspace.scratch();
-    const BodyState& s = body.m_state;
     std::vector<Vec3>& d = scratch.m_increment;
-    std::fill(d.begin(), d.end(), Vec3());
-    scratch.m_momentum.addTurning(body, settings.m_step, d);
-    const std::vector<Vec3>& prior = body.m_loads.m_priorVelocity;  // an external change is part of the step's
-    const std::vector<Vec3>& before = prior.empty() ? s.m_v : prior;
-    for (std::size_t i = 0; i < d.size(); ++i) d[i] = s.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - before[i] - d[i];
-    scratch.m_momentum.removeMomentum(body, settings.m_step, scratch.m_kickPosition, d);
+    for (std::size_t i = 0; i < d.size(); ++i)
+        d[i] = body.m_state.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - scratch.m_kickVelocity[i];
+    if (!scratch.m_isTurned) scratch.m_momentum.addInward(body, -settings.m_step, d);
+    scratch.m_momentum.removeMotion(body, d);
     return std::sqrt(squaredMomenta(body, d)) > noise(body, settings);
 }
 
@@ -64,14 +61,6 @@ ConjugateGradientStop smoothingStop(const Body& body, const StepSettings& settin
                             noise(body, settings) / kUnresolved);
     stop.m_maxIterations = settings.m_direct ? 1 : settings.m_maxIterations;
     return stop;
-}
-
-void subtractUnresolved(Body& body, const StepSettings& settings)
-{
-    StepScratch& scratch = body.m_workspace.scratch();
-    const double share = StepCoefficients(settings, body).smoothing();
-    scratch.m_momentum.removeMomentum(body, settings.m_step, body.m_state.m_x, scratch.m_increment);
-    for (std::size_t i = 0; i < scratch.m_velocity.size(); ++i) scratch.m_velocity[i] -= share * scratch.m_increment[i];
 }
 
 }  // namespace bullet_fem

@@ -16,13 +16,10 @@ namespace bullet_fem
 /// included, so that a body at rest loses nothing. StepCoefficients has d.
 
 /// Writes v* - v without its rigid part to the scratch's m_increment. Returns false if it is negligible, or if the step
-/// is implicit Euler. Overwrites the prescribed momentum.
+/// is implicit Euler.
 bool findChange(Body& body, const StepSettings& settings);
 
 /// Stopping rule of the smoothing solve; its floor is in the units of the right-hand side (A - M) (v* - v).
 ConjugateGradientStop smoothingStop(const Body& body, const StepSettings& settings);
-
-/// v* -= d times m_increment, without its rigid part, so that the momentum at the end positions is unchanged.
-void subtractUnresolved(Body& body, const StepSettings& settings);
 
 }  // namespace bullet_fem

@@ -12,31 +12,32 @@ namespace bullet_fem
 // for up to kBatchWidth bodies of one model, each bitwise equal to the single one. This file defines the order of the
 // stages.
 
-/// The free motion, without contact [docs/theory.md]:
+/// The free motion, without contact [docs/theory.md, One step]: the rigid part of the velocities follows from the
+/// momenta, and the elastic part w of the kick velocities u gains e,
 ///
-///     A dv = b        A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T        K' = sum R_e K_e R_e^T
-///                     b = h (f_ext + f_el(y) - alpha M v - K' w) - r c h^2 T v    y = x + (1 - theta) h v
+///     Pi^T A e = Pi^T b   A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T        K' = sum R_e K_e R_e^T
+///                         b = h (f_ext + f_el(y) - alpha M u - (s h + beta) K' w) - r c h^2 T w + centrifugal impulses
 ///
-/// with w = (s h + beta) v less the rigid rotation's part, c, theta and s of StepCoefficients (implicit Euler: c =
-/// theta = s = 1), and r from the variation of the recent steps.
+/// with c, theta and s of StepCoefficients (implicit Euler: c = theta = s = 1), Pi^T of RigidMomentum, and r from the
+/// variation of the recent steps.
 template <class Width>
 void solveFreeMotion(Width& width)
 {
-    width.readState();             // y, v, M and the loads f_ext
+    width.readState();             // y, u, M and the loads f_ext
     width.prescribeMomentum();     // linear and angular momentum that the loads prescribe for every free component
     width.passOverElements();      // rotations R_e, elastic forces f_el, A; and b
     width.averageRotations();      // R_i of the preconditioner R A0^-1 R^T, one per node or one for the body
     width.eliminateFixedNodes();   // b_f -= A_fp dv_p
     width.addPredictedImpulses();  // adds contact's to b and to the prescribed momentum
-    width.guessIncrement();        // warm start of dv from the last steps, with the prescribed momentum
-    width.solve();                 // conjugate gradients: A dv = b to the tolerance
+    width.guessIncrement();        // warm start of e from the last steps
+    width.solve();                 // conjugate gradients: Pi^T A e = Pi^T b to the tolerance
     width.correctIncrement();      // quasi-Newton iterations for nonlinear laws
-    width.addIncrement();          // v += dv, plus the rigid motion that restores the prescribed momentum
+    width.addIncrement();          // u += e, plus the rigid motion that has the prescribed momentum
     width.keepIncrement();         // for the warm start of the next step
 }
 
-/// The response to contact and joint impulses, any number of times after the free motion: A dv = J + r, with r the
-/// residual of the previous responses.
+/// The response to contact and joint impulses, any number of times after the free motion: Pi^T A e = Pi^T (J + r), with
+/// r the residual of the previous responses.
 template <class Width>
 void respondToImpulses(Width& width)
 {
@@ -50,7 +51,7 @@ void respondToImpulses(Width& width)
     width.keepResidual();
 }
 
-/// After the last impulses: the unresolved part of the change of velocities (smoothing.h).
+/// After the last impulses: the unresolved part of the change of elastic velocities (smoothing.h).
 template <class Width>
 void findUnresolved(Width& width)
 {

@@ -12,15 +12,24 @@ namespace bullet_fem
 
 void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
+    const RigidMomentum& rigid = m_body.m_workspace.scratch().m_momentum;
+    std::vector<Vec3>& elastic = m_body.m_workspace.scratch().m_rightSide;
+    for (std::size_t i = 0; i < in.size(); ++i) elastic[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
+    rigid.removeImpulses(m_body, elastic);
+    applyElastic(elastic, out);
+    for (Vec3& v : out) v *= m_scale;
+    rigid.addResponse(m_body, in, out);
+}
+
+void WarpedCompliance::applyElastic(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
     const WarpedPreconditioner P(m_body, m_threads);
     if (m_body.m_model->factorReport().m_path == FactorPath::full) return P.apply(in, out);
-    StepScratch& scratch = m_body.m_workspace.scratch();
-    for (std::size_t i = 0; i < in.size(); ++i) scratch.m_rightSide[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
     std::fill(out.begin(), out.end(), Vec3());
     ConjugateGradientStop stop;
     stop.m_tolerance = 1e-3;
     const WarpedSystem A(m_body, m_threads);
-    solveConjugateGradients({A, P, scratch.m_rightSide, out, scratch.m_solver, m_threads}, stop);
+    solveConjugateGradients({A, P, in, out, m_body.m_workspace.scratch().m_solver, m_threads}, stop);
 }
 
 }  // namespace bullet_fem

@@ -8,18 +8,25 @@
 namespace bullet_fem
 {
 
-/// Velocity response of nodes to impulses: A^-1 of the last prepared step, as accurately as contact needs between its
-/// corrective solves. P, if the factor is that of A0; on the low-memory path, where P is a poor approximation,
-/// conjugate gradients to |r| <= 1e-3 |impulses|. Nodes fixed at present have zero rows. Uses the solver's vectors and
-/// the right-hand side in the body's scratch; never allocates.
+/// Velocity response of nodes to impulses in the last prepared step, as accurately as contact needs between its
+/// corrective solves: the rigid response, exactly, plus an elastic one times a scale, learnt in contact. The elastic
+/// one is P_e, if the factor is that of A0; on the low-memory path, where P_e is a poor approximation, conjugate
+/// gradients to |r| <= 1e-3 |impulses|. Nodes fixed at present have zero rows. Uses the solver's vectors and the
+/// right-hand side in the body's scratch; never allocates.
 class WarpedCompliance : public LinearOperator
 {
 public:
-    explicit WarpedCompliance(Body& body, const Threads* threads = nullptr) : m_body(body), m_threads(threads) {}
+    WarpedCompliance(Body& body, double scale, const Threads* threads = nullptr)
+        : m_body(body), m_scale(scale), m_threads(threads)
+    {
+    }
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
 private:
+    void applyElastic(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
     Body& m_body;
+    double m_scale;  // of the elastic response [-]
     const Threads* m_threads;
 };
 

@@ -15,6 +15,7 @@
 #include "fem/elements/node_sums.h"
 #include "fem/elements/orthotropic_elements.h"
 #include "fem/factor/rest_factor.h"
+#include "fem/factor/rest_modes.h"
 
 namespace bullet_fem
 {
@@ -257,6 +258,7 @@ void WarpedSystem::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) co
     applyUnconstrained(in, out);
     addActuators(in, out);
     clearFixed(out);
+    m_body.m_workspace.scratch().m_momentum.removeImpulses(m_body, out);
 }
 
 void WarpedSystem::addActuators(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
@@ -338,9 +340,14 @@ void WarpedPreconditioner::rotateOut(const std::vector<Vec3>& in, double scale, 
 void WarpedPreconditioner::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     const double scale = rotateIn(in);
-    const FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    FactorWork& work = m_body.m_workspace.scratch().m_factor;
+    const RigidMomentum& rigid = m_body.m_workspace.scratch().m_momentum;
+    const RestModes& rest = m_body.m_model->restModes();
+    if (rigid.hasRestModes()) rest.removeImpulses(work.m_vector.get(), work.m_motions);
     m_body.m_model->factor().lower().solve(work.m_vector.get(), work.m_scratch.get(), m_threads);
+    if (rigid.hasRestModes()) rest.replaceMotions(work.m_vector.get(), work.m_motions);
     rotateOut(in, scale, out);
+    rigid.removeMotion(m_body, out);
 }
 
 }  // namespace bullet_fem

@@ -28,8 +28,9 @@ void scaleWarpedSystem(Body& body, const StepSettings& settings);
 /// without impulses in their last steps, because storing it takes longer than all products with A. Never allocates.
 void completeWarpedSystem(Body& body, const StepSettings& settings);
 
-/// A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over the free nodes, as last prepared, plus the contribution of
-/// the body's actuators; rows and columns of fixed nodes are zero.
+/// Pi^T A for elastic velocities, Pi^T of RigidMomentum and A = (1 + h alpha) M + (c h^2 + h beta) K' + c h^2 T over
+/// the free nodes, as last prepared, plus the contribution of the body's actuators; rows and columns of fixed nodes are
+/// zero.
 class WarpedSystem : public LinearOperator
 {
 public:
@@ -54,9 +55,11 @@ private:
     const Threads* m_threads;
 };
 
-/// P = R A0^-1 R^T [Garcia et al. 2006], R block-diagonal with one rotation for the body (global) or one per node
-/// (nodal). Nodes fixed at present have zero rows; nodes fixed only when the factor was built get the inverse of their
-/// diagonal.
+/// P_e = Pi R (A0^-1 - r r^T (1 / s - 1 / lambda_1)) R^T Pi^T, the rotated factor [Garcia et al. 2006] without rigid
+/// motions: without the rest modes r (RestModes), if these can move at present, and without the present ones by Pi of
+/// RigidMomentum. The term of 1 / lambda_1 keeps it definite where rotations average out, as in a bar bent to a ring. R
+/// is block-diagonal with one rotation for the body (global) or one per node (nodal). Nodes fixed at present have zero
+/// rows; nodes fixed only when the factor was built get the inverse of their diagonal.
 class WarpedPreconditioner : public LinearOperator
 {
 public:

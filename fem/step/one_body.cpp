@@ -40,6 +40,7 @@ public:
 
     void solve()
     {
+        m_scratch.m_momentum.removeImpulses(m_body, m_scratch.m_rightSide);
         if (isActuated())
         {
             m_report = solveActuated(m_body, m_settings, m_stop, m_isGuessed, m_solveOf);
@@ -56,7 +57,7 @@ public:
         std::vector<Vec3>& v = m_scratch.m_velocity;
         for (std::size_t i = 0; i < v.size(); ++i)
             if (!m_state.m_fixed[i]) v[i] += m_scratch.m_increment[i];
-        if (m_settings.m_momentumCorrection) m_scratch.m_momentum.restore(m_body, v);
+        m_scratch.m_momentum.restore(m_body, v);
     }
 
     // Keeps the residual of the impulse response, except after a breakdown, when it may not be finite.
@@ -70,15 +71,6 @@ public:
 
 protected:
     bool isActuated() const { return m_body.m_actuators.hasPulls(); }
-
-    // Adds to the initial guess of dv the rigid motion that gives free components their prescribed momentum.
-    void completeGuess()
-    {
-        std::vector<Vec3>& dv = m_scratch.m_increment;
-        for (std::size_t i = 0; i < dv.size(); ++i) dv[i] += m_scratch.m_velocity[i];
-        m_scratch.m_momentum.restore(m_body, dv);
-        for (std::size_t i = 0; i < dv.size(); ++i) dv[i] -= m_scratch.m_velocity[i];
-    }
 
     Body& m_body;
     BodyState& m_state;
@@ -103,9 +95,10 @@ public:
     void readState()
     {
         m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
-        for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
-            m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_state.m_v[i];
         beginDrift(m_body, m_settings);
+        m_scratch.m_reactions.noteKick(m_scratch.m_kickVelocity);
+        for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
+            m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_scratch.m_kickVelocity[i];
         if (isActuated())
         {
             beginActuation(m_body, m_settings);
@@ -113,19 +106,13 @@ public:
         }
     }
 
-    void prescribeMomentum() { m_scratch.m_momentum.prescribe(m_body, m_settings.m_step); }
-
-    // T is in A but not in b: it damps the change of velocity in the step, and so must act on an external change before
-    // it, u = v - v_prior, as well. Otherwise the tension that should pull back a repeatedly accelerated node would
-    // hold it in place. As impulses on the prior motion, A (dv + u) = b(v_prior) + M u; without T that is A dv = b(v).
-    void passOverElements()
+    void prescribeMomentum()
     {
-        std::vector<Vec3>& prior = m_loads.m_priorVelocity;
-        if (prior.empty()) return makeRightSide();
-        m_state.m_v.swap(prior);
-        makeRightSide();
-        m_state.m_v.swap(prior);
+        m_scratch.m_momentum.prescribe(m_body, m_settings.m_step);
+        noteArcs(m_body, m_settings);
     }
+
+    void passOverElements() { makeRightSide(); }
 
     void averageRotations() { averageNodeRotations(m_body, m_settings); }
 
@@ -138,7 +125,7 @@ public:
         bool moving = false;
         for (std::size_t i = 0; i < dv.size(); ++i)
         {
-            dv[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] - m_state.m_v[i] : Vec3();
+            dv[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] - m_scratch.m_kickVelocity[i] : Vec3();
             moving = moving || dot(dv[i], dv[i]) > 0;
         }
         if (moving)
@@ -169,7 +156,7 @@ public:
     }
 
     // Warm start: the increments of the last two steps, extrapolated linearly, because most motion is smooth. With
-    // predicted impulses: zero plus the rigid motion.
+    // predicted impulses: zero.
     void guessIncrement()
     {
         const std::vector<Vec3>&last = m_state.m_lastIncrement[0], &before = m_state.m_lastIncrement[1];
@@ -177,7 +164,7 @@ public:
         const bool isSmooth = !m_motion.m_predicted;
         for (std::size_t i = 0; i < dv.size(); ++i)
             dv[i] = isSmooth && !m_state.m_fixed[i] ? 2.0 * last[i] - before[i] : Vec3();
-        completeGuess();
+        m_scratch.m_momentum.removeMotion(m_body, dv);
     }
 
     // Bodies with actuators or external velocity changes keep the linear solution.
@@ -217,57 +204,64 @@ private:
         return m_settings.m_step * std::sqrt(sum);
     }
 
-    // b = h (f_ext + f_el(y) - alpha M v - K' w), and A of this step.
+    // b = h (f_ext + f_el(y) - alpha M v - (s h + beta) K' w) + the centrifugal impulses, and A of this step, with the
+    // elastic velocities w; along chords without these, and w less the chords' strain.
     void makeRightSide()
     {
         const double alpha = RigidMomentum::damping(m_body), toFrame = m_loads.m_frameDamping;
         std::vector<Vec3>& b = m_scratch.m_rightSide;
-        for (std::size_t i = 0; i < b.size(); ++i)
-            b[i] = m_loads.m_force[i] - alpha * m_state.m_mass[i] * m_state.m_v[i];
+        const std::vector<Vec3>& v = m_scratch.m_kickVelocity;
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] = m_loads.m_force[i] - alpha * m_state.m_mass[i] * v[i];
         for (std::size_t i = 0; i < b.size() && toFrame > 0; ++i)
-            b[i] += toFrame * m_state.m_mass[i] * (m_loads.m_frameVelocity[i] - m_state.m_v[i]);
-        findViscous();
+            b[i] += toFrame * m_state.m_mass[i] * (m_loads.m_frameVelocity[i] - v[i]);
+        if (isActuated()) m_scratch.m_actuation.addForces(m_body.m_actuators, v, b);
+        const std::vector<Vec3>& elastic = findElastic();
         std::vector<Vec3>& loads = m_scratch.m_newton.m_loads;
         for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = m_settings.m_step * b[i];
+        if (!loads.empty()) addCentrifugal(loads);
         prepareWarpedSystem(m_body, m_settings, m_scratch.m_kickPosition, m_scratch.m_increment, b);
         for (Vec3& bi : b) bi *= m_settings.m_step;
-        dampByTension();
+        addCentrifugal(b);
+        dampByTension(elastic);
     }
 
-    // b -= r c h^2 T v.
-    void dampByTension()
+    void addCentrifugal(std::vector<Vec3>& b) const
+    {
+        if (m_scratch.m_isTurned) m_scratch.m_momentum.addCentrifugal(m_body, m_settings.m_step, b);
+    }
+
+    // b -= r c h^2 T w.
+    void dampByTension(const std::vector<Vec3>& elastic)
     {
         const double r = m_scratch.m_stepVariation;
         if (!(r > 0) || !m_settings.m_tension) return;
-        std::vector<Vec3>&b = m_scratch.m_rightSide, &Tv = m_scratch.m_solver.m_Ap;
-        m_A.applyTension(m_state.m_v, Tv);
-        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= r * Tv[i];
+        std::vector<Vec3>&b = m_scratch.m_rightSide, &Tw = m_scratch.m_increment;
+        m_A.applyTension(elastic, Tw);
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] -= r * Tw[i];
     }
 
-    // w = (s h + beta) v, less a share of h w x (w x r), because velocities that rotate with the body are no strain.
-    // Actuators receive both vectors as well and add their forces to b.
-    void findViscous()
+    // The elastic velocities w, and (s h + beta) w in the increment.
+    const std::vector<Vec3>& findElastic()
     {
-        const double h = m_settings.m_step, beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
-        const ViscousShares shares(m_coefficients, h, beta);
-        std::vector<Vec3>& w = m_scratch.m_increment;
-        std::fill(w.begin(), w.end(), Vec3());
-        if (shares.m_ofTurning > 0) m_scratch.m_momentum.addTurning(m_body, h, w);
-        if (isActuated()) m_scratch.m_actuation.addForces(m_body.m_actuators, m_state.m_v, w, m_scratch.m_rightSide);
-        for (std::size_t i = 0; i < w.size(); ++i)
-            w[i] = shares.m_ofVelocity * m_state.m_v[i] - shares.m_ofTurning * w[i];
+        const double beta = m_body.m_model->shape().m_material.m_stiffnessDamping;
+        const double share = m_coefficients.m_damping * m_settings.m_step + beta;
+        std::vector<Vec3>&elastic = m_scratch.m_solver.m_Ap, &viscous = m_scratch.m_increment;
+        elastic = m_scratch.m_kickVelocity;
+        m_scratch.m_momentum.removeRigidVelocity(m_body, elastic);
+        for (std::size_t i = 0; i < elastic.size(); ++i) viscous[i] = share * elastic[i];
+        if (!m_scratch.m_isTurned)
+            m_scratch.m_momentum.addInward(
+                m_body, -m_coefficients.chordStrain(m_settings.m_step, beta) * m_settings.m_step, viscous);
+        return elastic;
     }
 
-    // Adds the external change of velocity to b: see passOverElements().
+    // The strain of an external change of velocity acts as impulses, so that the tension T in A resists it. Otherwise
+    // the tension that should pull back a repeatedly accelerated node would hold it in place.
     void addOutsideChange()
     {
-        const std::vector<Vec3>& prior = m_loads.m_priorVelocity;
-        if (prior.empty()) return;
-        std::vector<Vec3>&u = m_scratch.m_increment, &b = m_scratch.m_rightSide, &Au = m_scratch.m_solver.m_Ap;
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] = m_state.m_fixed[i] ? Vec3() : m_state.m_v[i] - prior[i];
-        m_A.applyUnconstrained(u, Au);
-        for (std::size_t i = 0; i < b.size(); ++i) b[i] += m_state.m_mass[i] * u[i] - Au[i];
-        if (isActuated()) m_scratch.m_actuation.subtractFromRightSide(m_body.m_actuators, u, b);
+        if (!m_scratch.m_isStrained) return;
+        std::vector<Vec3>& b = m_scratch.m_rightSide;
+        for (std::size_t i = 0; i < b.size(); ++i) b[i] += m_state.m_mass[i] * m_scratch.m_strained[i];
     }
 
     const FreeMotion& m_motion;
@@ -304,8 +298,8 @@ public:
         std::vector<Vec3>& dv = m_scratch.m_increment;
         if (!m_response.m_steady) return std::fill(dv.begin(), dv.end(), Vec3());
         for (std::size_t i = 0; i < dv.size(); ++i)
-            dv[i] = m_state.m_fixed[i] ? Vec3() : m_state.m_v[i] - m_scratch.m_velocity[i];
-        completeGuess();
+            dv[i] = m_state.m_fixed[i] ? Vec3() : m_scratch.m_kickVelocity[i] - m_scratch.m_velocity[i];
+        m_scratch.m_momentum.removeMotion(m_body, dv);
     }
 
 private:

@@ -63,14 +63,13 @@ void solveAll(Job* jobs, int count)
 Vec3 displace(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
-    WarpedCompliance(body, settings.m_threads).apply(impulses, scratch.m_increment);
     // Implicit Euler corrects a fraction of the penetration per step; other steps correct all of it.
     const double scale = StepCoefficients(settings, body).theta() < 1 ? scratch.m_complianceScale : 1;
+    WarpedCompliance(body, scale, settings.m_threads).apply(impulses, scratch.m_increment);
     scratch.m_isPushed = true;
     Vec3 angularMomentum;
     for (std::size_t i = 0; i < scratch.m_push.size(); ++i)
     {
-        scratch.m_increment[i] *= scale;
         scratch.m_push[i] += scratch.m_increment[i];
         angularMomentum +=
             cross(settings.m_step * scratch.m_increment[i], body.m_state.m_mass[i] * scratch.m_velocity[i]);
@@ -180,7 +179,6 @@ void finishSteps(StepEnd* ends, int count)
 {
     for (int k = 0; k < count; ++k)
     {
-        endDrift(*ends[k].m_body, ends[k].m_settings);
         ends[k].m_needsSmoothing = findChange(*ends[k].m_body, ends[k].m_settings);
         StepScratch& scratch = ends[k].m_body->m_workspace.scratch();
         if (ends[k].m_needsSmoothing && scratch.m_reactions.isNoting())
@@ -193,8 +191,8 @@ void finishSteps(StepEnd* ends, int count)
         StepScratch& scratch = body.m_workspace.scratch();
         const double share = StepCoefficients(ends[k].m_settings, body).smoothing();
         if (scratch.m_reactions.isNoting()) noteReactions(body, share);
-        if (ends[k].m_needsSmoothing) subtractUnresolved(body, ends[k].m_settings);
-        body.m_state.m_v = scratch.m_velocity;
+        endDrift(body, ends[k].m_settings, ends[k].m_needsSmoothing ? share : 0);
+        scratch.m_velocity = body.m_state.m_v;
         if (scratch.m_reactions.isNoting()) scratch.m_reactions.finish(body.m_state);
         if (scratch.m_isPushed) stopPushing(scratch);
         advanceInelasticStrain(body, sharedSettings(*body.m_model, ends[k].m_settings));

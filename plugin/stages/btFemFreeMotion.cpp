@@ -52,6 +52,7 @@ bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
     if (!record.isFem() || !record.m_softBody->isActive() || !arraysAsSetUp(record.fem())) return false;
     // Full numerical damping while penetrating: a body that is pushed out must not swing back.
     record.fem().m_body.m_loads.m_leastDamping = wasDeep ? 1 : 0;
+    record.fem().m_body.m_loads.m_isHeld = wasDeep;
     record.m_work.m_lastStep = bodyStep(record, worldStep);
     if (!isUsableStep(record.m_work.m_lastStep))
     {
@@ -94,9 +95,11 @@ void btFemFreeMotion::dampTouching(const std::vector<btFemBodyRecord*>& touching
     m_due.clear();
     for (btFemBodyRecord* record : touching)
     {
-        double& damping = record->fem().m_body.m_loads.m_leastDamping;
-        if (!(m_info.m_contactDamping > std::max(damping, static_cast<double>(m_info.m_numericalDamping)))) continue;
-        damping = m_info.m_contactDamping;
+        StepLoads& loads = record->fem().m_body.m_loads;
+        const double damping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_numericalDamping));
+        if (loads.m_isHeld && !(m_info.m_contactDamping > damping)) continue;
+        loads.m_leastDamping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_contactDamping));
+        loads.m_isHeld = true;
         m_due.push_back(record);
     }
     if (!m_due.empty()) solveDue(false);
@@ -162,8 +165,12 @@ void btFemFreeMotion::prepare(btFemBodyRecord& record) const
     readBody(record);  // again, as callbacks may have written since the prediction
     FemSoftBody& fem = record.fem();
     if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
-    double& damping = fem.m_body.m_loads.m_leastDamping;
-    if (isHeld(record)) damping = std::max(damping, static_cast<double>(m_info.m_contactDamping));
+    StepLoads& loads = fem.m_body.m_loads;
+    if (isHeld(record))
+    {
+        loads.m_leastDamping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_contactDamping));
+        loads.m_isHeld = true;
+    }
     record.m_work.m_staleness = staleness(record, record.m_work.m_lastStep);
     if (record.m_work.m_staleness > 1) record.m_reports.m_step.m_flags |= BT_FEM_STALE_FACTOR;
     record.m_reports.m_step.m_detail = detailInUse(record);

@@ -123,7 +123,6 @@ TEST(CableTension, HasNoSumAndNoTorque)
         StepSettings settings;
         settings.m_step = 1e-6;
         settings.m_tolerance = 1e-12;
-        settings.m_momentumCorrection = false;
         solveFreeMotion(body, settings);
         Vec3 sum, torque;
         double size = 0;

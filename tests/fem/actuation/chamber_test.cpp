@@ -50,7 +50,6 @@ std::vector<Vec3> impulsesOf(Body& body, double step)
     StepSettings settings;
     settings.m_step = step;
     settings.m_tolerance = 1e-12;
-    settings.m_momentumCorrection = false;
     solveFreeMotion(body, settings);
     std::vector<Vec3> impulses = velocity(body);
     for (std::size_t i = 0; i < impulses.size(); ++i) impulses[i] *= body.m_state.m_mass[i];

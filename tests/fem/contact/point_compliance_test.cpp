@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bullet_fem/fem/step/stepping.h"
+#include "fem/body/step_scratch.h"
 #include "fem/contact/compliance_cache.h"
 #include "fem/contact/compliance_kernel.h"
 #include "fem/scenes/element_case.h"
@@ -105,7 +106,16 @@ protected:
         W.addOwn();
         W.numberSlots();
         W.request({&m_body, m_cache.get()});
-        W.form({&m_body, m_cache.get()}, scale);
+        W.form({&m_body, m_cache.get()}, scale, sharesOf(W));
+    }
+
+    std::vector<RigidMomentum::Share> sharesOf(const PointCompliance& W) const
+    {
+        std::vector<RigidMomentum::Share> shares;
+        const Mat3 whole = Mat3::identity();
+        for (int node : W.nodes())
+            shares.push_back(m_body.m_workspace.scratch().m_momentum.shareOf(m_body, &node, &whole, 1));
+        return shares;
     }
 
     // The oracle: the preconditioner itself, which is that factor rotated with the nodes.
@@ -134,7 +144,7 @@ TEST_F(PointComplianceTest, MatchesTheRotatedFactorBetweenPoints)
     for (int repeat = 0; repeat < 2; ++repeat)  // results of the last call are overwritten
     {
         form(W, points, 1);
-        W.scale(kScale);
+        W.scaleElastic({&m_body, m_cache.get()}, kScale, sharesOf(W));
     }
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     ASSERT_GT(size, 0);

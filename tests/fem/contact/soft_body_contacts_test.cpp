@@ -141,10 +141,9 @@ TEST(SoftBodyContacts, LearnNothingFromWrongPredictedImpulses)
     EXPECT_FALSE(ends.isTooSoft());
 }
 
-// A body on one pin rotates about it by the impulse's moment, for any shape; P uses the lever arms of the rest shape,
-// along which the impulse here nearly points: it predicts a thirtieth of the response. Scaling W would make it too soft
-// in all other directions.
-TEST(SoftBodyContacts, LearnTheRigidResponseOfAStrainedBody)
+// A body on one pin rotates about it by the impulse's moment, for any shape; the lever arms of the rest shape, along
+// which the impulse here nearly points, would give a thirtieth of the response.
+TEST(SoftBodyContacts, KnowTheRigidResponseOfAStrainedBody)
 {
     const auto isPinned = [](const Vec3& X) { return norm(X) < 1e-6; };
     Body body = makeBody(makeBox({1, 1, 1}, {3, 3, 3}), elasticMaterial(1e9, 0.3), isPinned);
@@ -163,27 +162,13 @@ TEST(SoftBodyContacts, LearnTheRigidResponseOfAStrainedBody)
     ends.request();
     ends.form();
     ends.measure();
-    const Mat3 before = ends.compliance(0, 0);
-    const Vec3 impulse = ends.rotation(last) * Vec3{10, 10, 10};
-    // The predicted speed of the contact point over its actual speed.
-    const auto toldShare = [&]
-    {
-        const Vec3 v = ends.trueVelocity(0);
-        ends.push(0, impulse);
-        ends.refresh();
-        const double told = norm(ends.velocity(0) - v);
-        ImpulseResponse response = ends.beginCorrection(settings, {});
-        applyImpulses(&response, 1);
-        ends.endCorrection();
-        ends.measure();
-        return told / norm(ends.trueVelocity(0) - v);
-    };
-    EXPECT_LT(toldShare(), 0.1);
-    EXPECT_TRUE(ends.hasLearnt());
-    const double told = toldShare();
-    EXPECT_GT(told, 0.7);
-    EXPECT_LT(told, 2.2);
-    EXPECT_LT(trace(ends.compliance(0, 0)), 3 * trace(before));
+    const Vec3 v = ends.trueVelocity(0);
+    ends.push(0, ends.rotation(last) * Vec3{10, 10, 10});
+    ends.refresh();
+    const Vec3 predicted = ends.velocity(0) - v;
+    ImpulseResponse response = ends.beginCorrection(settings, {});
+    applyImpulses(&response, 1);
+    EXPECT_LE(norm(predicted - (ends.trueVelocity(0) - v)), 2e-2 * norm(predicted));
 }
 
 }  // namespace

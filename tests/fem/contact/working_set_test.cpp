@@ -69,7 +69,7 @@ public:
         m_points.clear(m_scene.m_body.m_state.m_x.size());
         for (int k = 0; k < points; ++k) m_points.addOwn();
         m_points.numberSlots();
-        m_points.form(body, 1);
+        m_points.form(body, 1, {});
         for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(points); ++i)
             for (std::size_t j = 0; j <= i; ++j) m_points.set(i, j, random());
     }

@@ -242,7 +242,6 @@ TEST(ElasticityAccurateBending, ForcesAreTheEnergysGradient)
         StepSettings settings;
         settings.m_step = 1e-6;
         settings.m_tolerance = 1e-10;
-        settings.m_momentumCorrection = false;
         settings.m_numericalDamping = 1;
         step(body, settings);
         std::vector<Vec3> force = body.m_state.m_v;

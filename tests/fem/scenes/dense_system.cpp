@@ -201,4 +201,33 @@ Eigen::MatrixXd gridMatrix(int side)
                           });
 }
 
+Eigen::MatrixXd rigidModes(const std::vector<Vec3>& x, const std::vector<double>& mass)
+{
+    Vec3 center;
+    double total = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        center += mass[i] * x[i];
+        total += mass[i];
+    }
+    Eigen::MatrixXd G(3 * x.size(), 6);
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        const Vec3 r = x[i] - (1 / total) * center;
+        G.block<3, 3>(3 * i, 0).setIdentity();
+        G.block<3, 3>(3 * i, 3) << 0, r.z, -r.y, -r.z, 0, r.x, r.y, -r.x, 0;
+    }
+    return G;
+}
+
+Eigen::VectorXd elasticSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::MatrixXd& momentum)
+{
+    const Eigen::Index n = A.rows(), k = momentum.cols();
+    Eigen::MatrixXd bordered = Eigen::MatrixXd::Zero(n + k, n + k);
+    bordered << A, momentum, momentum.transpose(), Eigen::MatrixXd::Zero(k, k);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n + k);
+    right.head(n) = b;
+    return bordered.fullPivLu().solve(right).head(n);
+}
+
 }  // namespace bullet_fem

@@ -29,6 +29,12 @@ Eigen::MatrixXd denseStiffness(const TetMesh& mesh, const Material& material, co
 /// A0 = (1 + h alpha) M + (h^2 + h beta) K over all nodes [kg].
 Eigen::MatrixXd denseRestSystem(const RestShape& shape, const FactorInput& input);
 
+/// The six rigid modes about the centre of mass, one per column.
+Eigen::MatrixXd rigidModes(const std::vector<Vec3>& x, const std::vector<double>& mass);
+
+/// The vector e without momentum, G^T M e = 0, that minimizes e . A e / 2 - b . e, for the modes G.
+Eigen::VectorXd elasticSolution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::MatrixXd& momentum);
+
 /// A without the rows and columns of the fixed nodes, which get ones on the diagonal.
 Eigen::MatrixXd constrained(Eigen::MatrixXd A, const std::vector<unsigned char>& fixed);
 

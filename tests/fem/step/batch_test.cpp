@@ -279,15 +279,6 @@ TEST(BatchOfCopies, TakesVaryingSteps)
     }
 }
 
-TEST(BatchOfCopies, MayGoWithoutMomentumCorrection)
-{
-    const auto model = freeBlock().m_model;
-    Copies together(model, 17), alone(model, 17);
-    for (Copies* copies : {&together, &alone})
-        for (StepSettings& settings : copies->m_settings) settings.m_momentumCorrection = false;
-    expectSameSteps(together, alone, 5);
-}
-
 // The breakdown of one body does not affect the others.
 TEST(BatchOfCopies, LosesNoBodyBesideABadOne)
 {

@@ -41,7 +41,6 @@ protected:
     {
         m_settings.m_tolerance = 1e-10;
         m_settings.m_maxIterations = 1000;
-        m_settings.m_momentumCorrection = false;
     }
 
     StepSettings m_settings;

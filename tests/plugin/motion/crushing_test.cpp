@@ -157,9 +157,9 @@ class Overloaded : public testing::TestWithParam<std::tuple<Coupling, double, do
 {
 };
 
-// Under a hundred or a thousand times its weight a soft cube is crushed. Flags report steps that start with a node deep
-// in the ground; inner nodes get there by inverted elements.
-TEST_P(Overloaded, ReportsACrushedCube)
+// Under a thousand times its weight a soft cube is crushed, a large one under a hundred times. Flags report steps that
+// start with a node deep in the ground; inner nodes get there by inverted elements.
+TEST_P(Overloaded, HoldsOrReportsACrushedCube)
 {
     const auto& [coupling, size, ratio] = GetParam();
     FemWorld world(WorldClass::softRigid, coupling);
@@ -187,7 +187,8 @@ TEST_P(Overloaded, ReportsACrushedCube)
         fast += isFast;
         toldFast += isFast && wasTold;
     }
-    EXPECT_GT(deep, 10);
+    const bool holds = size < 0.1 && ratio < 1000;
+    EXPECT_EQ(deep > 5, !holds) << deep;
     EXPECT_GE(told, 0.9 * deep);
     EXPECT_EQ(toldFast, fast);
 }

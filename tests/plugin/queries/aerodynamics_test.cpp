@@ -150,7 +150,7 @@ TEST_P(Water, HasNoEffectAsOnBulletsBodies)
     EXPECT_EQ(fem, ofFem(0));
     const double wind = largestDifference(bullet, ofBullet(0, 0));
     EXPECT_GT(wind, 1e-4);
-    EXPECT_LT(largestDifference(fem, bullet), 1e-3 * wind + 1e-5);  // Bullet rounds x by x / h
+    EXPECT_LT(largestDifference(fem, bullet), 1e-3 * wind + 2e-4);  // the body turns by .05 rad, to third order
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -78,6 +78,9 @@ struct StepLoads
     /// Node velocities before an external change of BodyState::m_v since the last step [m/s], so that the change acts
     /// as impulses. Empty: no change, or the change acts within one step together with the forces.
     std::vector<Vec3> m_priorVelocity;
+    /// In contact or held: the nodes move along chords, as contacts and joints expect, instead of turning exactly with
+    /// their body (docs/theory.md, Contact in the step).
+    bool m_isHeld = false;
     double m_leastDamping = 0;  ///< lower bound of StepSettings::m_numericalDamping for the body [-], in [0, 1]
 };
 

@@ -33,8 +33,6 @@ struct StepSettings
     Warp m_warp = Warp::nodal;
     bool m_direct = false;  ///< one iteration whatever the residual [Garcia et al. 2006]; stiff bodies can gain energy
     bool m_tension = true;  ///< include the tensile geometric stiffness in A; off only to compare with references
-    /// Restore the momentum that the impulses prescribe, on unpinned connected components.
-    bool m_momentumCorrection = true;
     /// Threads that share the work on a body of some thousand elements; null: the calling thread alone. Does not change
     /// the bits of the result. Must outlive the settings.
     const Threads* m_threads = nullptr;
@@ -55,8 +53,8 @@ enum class SolveStop
 struct SolveReport
 {
     int m_iterations = 0;  ///< applications of the preconditioner that improved the answer
-    /// True residual |b - A dv| / |b| at the end [-]; 0 if b = 0. With expected impulses in b, which may cancel the
-    /// loads, |b| counts as at least their norm.
+    /// True residual |b - A dv| / |b| of the elastic part at the end [-]; 0 if b = 0. |b| counts as at least the floor of
+    /// the tolerance: 1e-3 h |f_ext|, with expected impulses, which may cancel the loads, their norm.
     double m_residual = 0;
     /// Reason of termination.
     SolveStop m_stop = SolveStop::converged;

@@ -13,6 +13,7 @@ namespace bullet_fem
 {
 
 class RestFactor;
+class RestModes;
 struct ModelElements;
 
 /// The rest factor that preconditions a body's steps. Conjugate gradients reach the tolerance with either.
@@ -107,6 +108,8 @@ public:
     const RestFactor& factor() const { return *m_factor.m_factor; }
     /// The factor with its inputs, for sharing.
     const FactorOfModel& sharedFactor() const { return m_factor; }
+    /// The rigid modes of the rest shape; the type is internal.
+    const RestModes& restModes() const { return *m_restModes; }
     /// Elements in the kernels' layout; the type is internal.
     const ModelElements& elements() const { return *m_elements; }
     /// Figures of the factorization.
@@ -121,6 +124,7 @@ private:
     BodyModel() = default;
     std::shared_ptr<const RestShape> m_shape;
     FactorOfModel m_factor;
+    std::unique_ptr<const RestModes> m_restModes;
     std::unique_ptr<const ModelElements> m_elements;
     double m_materialMismatch = 1;
 };

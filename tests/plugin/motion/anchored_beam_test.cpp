@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Stiff slender beams on anchors or pins, under loads of contact.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "plugin/scenes/kinematic_bodies.h"
+#include "plugin/scenes/scene_measures.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+enum class BeamLoad
+{
+    ball,    // of half the beam's mass, falls on the middle from .01 of the half length
+    box,     // of half the beam's mass, beside the middle
+    pressed  // a kinematic box that presses the middle down by .015 of the half length
+};
+
+struct BeamCase
+{
+    double m_half;  // half length [m]
+    int m_ends;     // that are held
+    BeamLoad m_load;
+};
+
+// Coupling, beam, E [Pa], step [s].
+class AnchoredBeam : public testing::TestWithParam<std::tuple<Coupling, BeamCase, double, double>>
+{
+protected:
+    struct Result
+    {
+        double m_fastest = 0, m_atRest = 0;  // since the start, and in the last second of four [m/s]
+    };
+
+    static Result run(bool isPinned)
+    {
+        const auto& [coupling, beam, young, h] = GetParam();
+        const double s = beam.m_half;
+        FemWorld world(WorldClass::softRigid, coupling);
+        SoftBox box;
+        box.m_size = s * Vec3{2, 0.1, 0.1};
+        box.m_cells = {20, 1, 1};
+        box.m_youngModulus = btScalar(young);
+        btSoftBody& body = addSoftBox(world, world.fem(), box);
+        world.fem().prepare(&body, btScalar(h));
+        hold(world, body, isPinned);
+        btRigidBody* jaw = load(world, massOf(body));
+        Result result;
+        for (int k = 1; k * h <= 4; ++k)
+        {
+            if (jaw)
+                jaw->getMotionState()->setWorldTransform(at(0, 0, btScalar(s * (0.155 - 0.02 * std::min(1.0, k * h)))));
+            world.step(1, btScalar(h));
+            const double speed = fastestNode(body);
+            result.m_fastest = std::max(result.m_fastest, speed);
+            if (k * h > 3) result.m_atRest = std::max(result.m_atRest, speed);
+            if (!(speed < 1e3)) break;
+        }
+        return result;
+    }
+
+private:
+    // Holds the end faces by anchors to static boxes, or by pins.
+    static void hold(FemWorld& world, btSoftBody& body, bool isPinned)
+    {
+        const BeamCase& beam = std::get<1>(GetParam());
+        for (int end = 0; end < beam.m_ends; ++end)
+        {
+            const double side = end == 0 ? -1 : 1, s = beam.m_half;
+            RigidSettings settings;
+            settings.m_transform = at(btScalar(side * 1.1 * s), 0, 0);
+            btRigidBody& block = addRigidBox(world, s * Vec3{0.2, 0.2, 0.2}, settings);
+            for (int i = 0; i < body.m_nodes.size(); ++i)
+            {
+                if (std::fabs(double(body.m_nodes[i].m_x.x()) - side * s) > 1e-4 * s) continue;
+                if (isPinned)
+                    body.setMass(i, 0);
+                else
+                    body.appendAnchor(i, &block, true, 1);
+            }
+        }
+    }
+
+    // Returns the kinematic box, or null.
+    static btRigidBody* load(FemWorld& world, double mass)
+    {
+        const BeamCase& beam = std::get<1>(GetParam());
+        const double s = beam.m_half;
+        RigidSettings settings;
+        settings.m_mass = btScalar(0.5 * mass);
+        if (beam.m_load == BeamLoad::pressed)
+            return &addKinematicBox(world, s * Vec3{0.2, 0.2, 0.2}, at(0, 0, btScalar(0.155 * s)));
+        if (beam.m_load == BeamLoad::ball)
+        {
+            settings.m_transform = at(0, 0, btScalar(0.21 * s));
+            world.addRigid(new btSphereShape(btScalar(0.15 * s)), settings);
+        }
+        else
+        {
+            settings.m_transform = at(btScalar(-0.5 * s), 0, btScalar(0.16 * s));
+            addRigidBox(world, s * Vec3{0.2, 0.2, 0.2}, settings);
+        }
+        return nullptr;
+    }
+};
+
+// Under the loads soft beams sag and swing, on pins as on anchors; stiff ones come to rest.
+TEST_P(AnchoredBeam, IsNoFasterThanOnPins)
+{
+    const Result anchored = run(false), pinned = run(true);
+    RecordProperty("speed", std::to_string(anchored.m_fastest) + " pinned " + std::to_string(pinned.m_fastest) +
+                                " rest " + std::to_string(anchored.m_atRest) + " pinned " +
+                                std::to_string(pinned.m_atRest));
+    EXPECT_LT(anchored.m_fastest, 1.05 * pinned.m_fastest + 0.2);
+    EXPECT_LT(anchored.m_atRest, 1.2 * pinned.m_atRest + 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Beams, AnchoredBeam,
+    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                     testing::Values(BeamCase{1, 2, BeamLoad::ball}, BeamCase{1, 2, BeamLoad::box},
+                                     BeamCase{1, 2, BeamLoad::pressed}, BeamCase{1, 1, BeamLoad::ball},
+                                     BeamCase{0.1, 2, BeamLoad::ball}, BeamCase{0.1, 2, BeamLoad::box},
+                                     BeamCase{0.1, 2, BeamLoad::pressed}, BeamCase{0.1, 1, BeamLoad::ball}),
+                     testing::Values(1e6, 1e7, 1e8, 1e9), testing::Values(1.0 / 60, 1.0 / 240)),
+    [](const auto& suite)
+    {
+        const BeamCase& beam = std::get<1>(suite.param);
+        return std::string(couplingName(std::get<0>(suite.param))) + (beam.m_half < 0.5 ? "_Small" : "_Large") +
+               (beam.m_ends == 1 ? "OneEnd" : "TwoEnds") +
+               (beam.m_load == BeamLoad::ball  ? "Ball"
+                : beam.m_load == BeamLoad::box ? "Box"
+                                               : "Pressed") +
+               "_" + nameOfYoung(std::get<2>(suite.param)) + "_" + nameOfStep(std::get<3>(suite.param));
+    });
+
+}  // namespace
+}  // namespace bullet_fem
