@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: Zlib
+# Copyright (c) 2026 The BulletFEM authors
+"""Soft bodies of finite elements in Bullet's worlds, in double precision.
+
+All quantities are in SI units. Vectors are arrays (3,), orientations quaternions (x, y, z, w). Arrays that are returned
+are fresh, contiguous and of float64 or int32; those named *_view share the memory of Bullet's nodes.
+"""
+from ._core import (
+    BakedBody,
+    ElementMaterials,
+    Joint,
+    Material,
+    Mesh,
+    RigidBody,
+    Shape,
+    SoftBody,
+    StepReport,
+    World,
+    __version__,
+    contact_dtype,
+    has_pictures,
+    touch_dtype,
+)
+
+__all__ = [
+    "BakedBody",
+    "ElementMaterials",
+    "Joint",
+    "Material",
+    "Mesh",
+    "RigidBody",
+    "Shape",
+    "SoftBody",
+    "StepReport",
+    "World",
+    "__version__",
+    "contact_dtype",
+    "has_pictures",
+    "touch_dtype",
+]
