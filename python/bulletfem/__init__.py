@@ -5,6 +5,8 @@
 All quantities are in SI units. Vectors are arrays (3,), orientations quaternions (x, y, z, w). Arrays that are returned
 are fresh, contiguous and of float64 or int32; those named *_view share the memory of Bullet's nodes.
 """
+from __future__ import annotations
+
 from ._core import (
     BakedBody,
     ElementMaterials,
@@ -21,6 +23,15 @@ from ._core import (
     has_pictures,
     touch_dtype,
 )
+from ._png import png as _png
+
+
+def _repr_png_(world: World) -> bytes | None:
+    """A picture of the world, for notebooks; None if the module was built without pictures."""
+    return _png(world.render()) if has_pictures else None
+
+
+setattr(World, "_repr_png_", _repr_png_)
 
 __all__ = [
     "BakedBody",

@@ -143,9 +143,12 @@ std::vector<int> labelsOf(py::handle object, const char* name)
 
 double numberOf(py::handle object, const char* name, double low, double high)
 {
-    const bool isNumber = PyFloat_Check(object.ptr()) || PyLong_Check(object.ptr()) ||
-                          (PyNumber_Check(object.ptr()) && !PyComplex_Check(object.ptr()) &&
-                           !py::isinstance<py::array>(object) && py::hasattr(object, "__float__"));
+    bool isNumber = PyFloat_Check(object.ptr()) || PyLong_Check(object.ptr());
+    if (!isNumber && !PySequence_Check(object.ptr()) && !py::isinstance<py::array>(object))
+    {
+        const py::array scalar = py::array::ensure(object);  // NumPy's scalars
+        isNumber = scalar && scalar.ndim() == 0 && std::string("fiu").find(scalar.dtype().kind()) != std::string::npos;
+    }
     if (!isNumber) throw py::type_error(std::string(name) + " is " + reprOf(object) + ": it must be a real number");
     const double value = PyFloat_AsDouble(object.ptr());
     if (value == -1 && PyErr_Occurred()) throw py::error_already_set();

@@ -76,41 +76,71 @@ py::list breaksOf(World& world)
     return list;
 }
 
-/// Replaces a body by bodies of its labels.
-py::list cut(const SoftHandle& self, py::handle labels, const py::object& material)
+using Parts = std::vector<std::unique_ptr<SoftEntry>>;
+
+/// The parts of a body with their materials. Throws without a trace of them.
+Parts partsOf(World& world, const SoftEntry& whole, const std::vector<int>& labels, const ElementMaterials& materials)
 {
-    SoftEntry& entry = self.changing();
-    World& world = self.world();
-    if (!entry.m_own) throw py::value_error("bodies of a scene cannot be cut");
-    if (entry.m_views > 0)
-        throw std::runtime_error("a view of the body's nodes exists: delete the array before the body is cut");
-    if (!py::isinstance<Material>(material)) throw py::type_error("material must be a Material, for the parts");
-    ElementMaterials materials;
-    materials.m_base = material.cast<Material>();
-    materials.m_base.validate();
     std::vector<btFemPiece> pieces;
-    btFemPieces::cut(entry.m_body, labelsOf(labels, "labels"), pieces);
-    const std::string name = world.bodies()[self.m_index].m_name;
-    const btMatrix3x3 turn = entry.m_turn;
-    const btBroadphaseProxy* proxy = entry.m_body->getBroadphaseHandle();
-    const int group = proxy->m_collisionFilterGroup, mask = proxy->m_collisionFilterMask;
-    std::vector<std::unique_ptr<SoftEntry>> parts;
+    btFemPieces::cut(whole.m_body, labels, pieces);
+    Parts parts;
     for (const btFemPiece& piece : pieces)
     {
         parts.push_back(std::make_unique<SoftEntry>());
         parts.back()->m_own.reset(piece.m_body);
         parts.back()->m_body = piece.m_body;
-        parts.back()->m_turn = turn;
+        parts.back()->m_turn = whole.m_turn;
     }
-    world.removeBody(self.m_index);
+    try
+    {
+        for (const auto& part : parts) setMaterials(world, *part, materials);
+    }
+    catch (...)
+    {
+        for (const auto& part : parts) world.fem().forget(part->m_body);
+        throw;
+    }
+    return parts;
+}
+
+/// Adds the parts; those that cannot be added are dropped, and the last exception is thrown.
+py::list addParts(const WorldPointer& world, Parts parts, const std::string& name, int group, int mask)
+{
     py::list list;
+    std::exception_ptr thrown;
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
-        setMaterials(world, *parts[i], materials);
-        const int index = world.add(std::move(parts[i]), name + "." + std::to_string(i), group, mask);
-        list.append(py::cast(SoftHandle{{self.m_world, index}}));
+        try
+        {
+            const int index = world->add(std::move(parts[i]), name + "." + std::to_string(i), group, mask);
+            list.append(py::cast(SoftHandle{{world, index}}));
+        }
+        catch (...)
+        {
+            world->fem().forget(parts[i]->m_body);
+            thrown = std::current_exception();
+        }
     }
+    if (thrown) std::rethrow_exception(thrown);
     return list;
+}
+
+/// Replaces a body by bodies of its labels.
+py::list cut(const SoftHandle& self, py::handle labels, const Material& material)
+{
+    const SoftEntry& entry = self.changing();
+    World& world = self.world();
+    if (!entry.m_own) throw py::value_error("bodies of a scene cannot be cut");
+    if (entry.m_views > 0)
+        throw std::runtime_error("a view of the body's nodes exists: delete the array before the body is cut");
+    ElementMaterials materials;
+    materials.m_base = material;
+    Parts parts = partsOf(world, entry, labelsOf(labels, "labels"), materials);
+    const std::string name = world.bodies()[self.m_index].m_name;
+    const btBroadphaseProxy* proxy = entry.m_body->getBroadphaseHandle();
+    const int group = proxy->m_collisionFilterGroup, mask = proxy->m_collisionFilterMask;
+    world.removeBody(self.m_index);
+    return addParts(self.m_world, std::move(parts), name, group, mask);
 }
 
 py::array_t<int> voronoiLabels(const SoftHandle& self, int cells, int seed)

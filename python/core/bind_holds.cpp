@@ -49,6 +49,13 @@ void anchor(const SoftHandle& self, py::handle nodes, const RigidHandle& rigid, 
     body.activate(true);
 }
 
+bool hasAnchorTo(const btSoftBody& body, const btCollisionObject* object)
+{
+    for (int i = 0; i < body.m_anchors.size(); ++i)
+        if (body.m_anchors[i].m_body == object) return true;
+    return false;
+}
+
 void unanchor(const SoftHandle& self, const py::object& nodes)
 {
     btSoftBody& body = *self.changing().m_body;
@@ -62,6 +69,9 @@ void unanchor(const SoftHandle& self, const py::object& nodes)
         node->m_battach = 0;
         body.m_anchors.removeAtIndex(i);
     }
+    for (int i = body.m_collisionDisabledObjects.size() - 1; i >= 0; --i)
+        if (!hasAnchorTo(body, body.m_collisionDisabledObjects[i]))
+            body.m_collisionDisabledObjects.remove(body.m_collisionDisabledObjects[i]);
     body.activate(true);
 }
 

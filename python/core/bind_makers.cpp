@@ -86,13 +86,15 @@ RigidHandle addRigidBody(const WorldPointer& world, const std::shared_ptr<RigidS
     const double kilograms = numberOf(mass, "mass", 0, kLargestMass);
     if (kilograms > 0 && (shape->isStaticOnly() || kinematic))
         throw py::value_error("mass is not 0: planes, meshes and kinematic bodies must have mass 0");
+    const btVector3 linear = vectorOf(velocity, "velocity"), angular = vectorOf(angularVelocity, "angular_velocity");
+    if (kilograms == 0 && !(linear.fuzzyZero() && angular.fuzzyZero()))
+        throw py::value_error("velocity is not 0, but mass is: such a body moves only to poses that the program sets");
     auto entry = std::make_unique<RigidEntry>();
     entry->m_shape = shape;
     entry->m_own = makeRigid(*shape, kilograms, transformOf(position, orientation));
     btRigidBody& body = *(entry->m_body = entry->m_own.get());
     body.setFriction(btScalar(numberOf(friction, "friction", 0, kLargest)));
     body.setRestitution(btScalar(numberOf(restitution, "restitution", 0, 1)));
-    const btVector3 linear = vectorOf(velocity, "velocity"), angular = vectorOf(angularVelocity, "angular_velocity");
     if (kinematic)
     {
         body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "python/core/handles.h"
 #ifdef BULLETFEM_HAS_PICTURES
+#include <unistd.h>
+
 #include <algorithm>
-#include <memory>
 
 #include "bullet_fem/btFemVectors.h"
 #include "tools/pictures/offscreen_renderer.h"
@@ -98,17 +99,33 @@ PictureCamera cameraOf(World& world, const PictureScene& scene, py::handle eye, 
     return camera;
 }
 
+/// The renderer of the process, which is never deleted: the driver may be gone before.
+OffscreenRenderer& renderer()
+{
+    static OffscreenRenderer* renderer = nullptr;
+    static pid_t process = 0;
+    if (!renderer)
+    {
+        renderer = new OffscreenRenderer;
+        process = getpid();
+    }
+    if (process != getpid())
+        throw std::runtime_error(
+            "this process was forked from one that drew pictures, whose driver does not survive a fork: start "
+            "processes by "
+            "multiprocessing.get_context('spawn')");
+    return *renderer;
+}
+
 py::array_t<unsigned char> render(World& world, int width, int height, py::handle eye, py::handle target, bool stress)
 {
     world.guard().reading();
     if (width < 1 || width > kMaxPixels || height < 1 || height > kMaxPixels)
         throw py::value_error("width and height must be in [1, " + std::to_string(kMaxPixels) + "]");
-    static std::unique_ptr<OffscreenRenderer> renderer;
-    if (!renderer) renderer = std::make_unique<OffscreenRenderer>();
     PictureScene scene = sceneOf(world, stress);
     const PictureSize size{width, height};
     scene.m_camera = cameraOf(world, scene, eye, target, size);
-    const Image image = renderer->render(scene, size);
+    const Image image = renderer().render(scene, size);
     py::array_t<unsigned char> pixels(Dims{height, width, 3});
     std::copy(image.m_pixels.begin(), image.m_pixels.end(), pixels.mutable_data());
     return pixels;

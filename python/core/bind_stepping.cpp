@@ -57,10 +57,9 @@ void step(const WorldPointer& world, int count, const py::object& after)
     {
         {
             const py::gil_scoped_release unlocked;
-            world->bullet().step(world->stepSize());
+            world->step();
         }
-        ++world->steps();
-        world->guard().rethrow();
+        world->finishStep();
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
         if (after.is_none()) continue;
         const StepGuard::Pause between(world->guard());

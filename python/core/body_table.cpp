@@ -34,7 +34,7 @@ void BodyTable::remove(int index)
 {
     BodyEntry& entry = m_entries[std::size_t(index)];
     m_indices.erase(objectOf(entry));
-    entry = {};
+    m_removed.push_back(std::exchange(entry, {}));
 }
 
 SoftEntry& BodyTable::soft(int index) const

@@ -48,8 +48,10 @@ class BodyTable
 public:
     /// Returns the index.
     int append(BodyEntry entry);
-    /// Deletes the body. The index stays, and its name is free.
+    /// Removes the body; its name is free. It is deleted by deleteRemoved() after the next step, since reports of the
+    /// last one have its address, which must not be that of a new body.
     void remove(int index);
+    void deleteRemoved() { m_removed.clear(); }
 
     /// Throw std::runtime_error if the body was removed.
     SoftEntry& soft(int index) const;
@@ -63,7 +65,7 @@ public:
     auto end() const { return m_entries.end(); }
 
 private:
-    std::vector<BodyEntry> m_entries;
+    std::vector<BodyEntry> m_entries, m_removed;
     std::unordered_map<const btCollisionObject*, int> m_indices;
 };
 

@@ -14,6 +14,7 @@ namespace
 
 void removeAnchorsTo(btSoftBody& body, const btRigidBody* rigid)
 {
+    body.m_collisionDisabledObjects.remove(rigid);
     for (int i = body.m_anchors.size() - 1; i >= 0; --i)
     {
         if (body.m_anchors[i].m_body != rigid) continue;
@@ -139,6 +140,13 @@ void World::setGravity(const btVector3& gravity)
         if (body.m_soft) body.m_soft->m_body->activate();
         if (body.m_rigid) body.m_rigid->m_body->activate();
     }
+}
+
+void World::finishStep()
+{
+    ++m_steps;
+    m_bodies.deleteRemoved();
+    m_guard.rethrow();
 }
 
 void World::setInterest(std::unique_ptr<btFemInterest> interest)

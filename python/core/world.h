@@ -51,14 +51,18 @@ public:
     btFemSoftBodySolver& fem() { return m_bullet->fem(); }
     StepGuard& guard() { return m_guard; }
     double stepSize() const { return m_step; }
-    long& steps() { return m_steps; }
+    long steps() const { return m_steps; }
+    /// One step, without Python's lock.
+    void step() { m_bullet->step(m_step); }
+    /// To be called after each step.
+    void finishStep();
 
 private:
     void registerScene();
 
     std::unique_ptr<btFemInterest> m_interest;
     std::unique_ptr<BulletWorld> m_bullet;
-    double m_step;  // [s]
+    const double m_step;  // [s]
     long m_steps = 0;
     BodyTable m_bodies;
     std::vector<JointEntry> m_joints;

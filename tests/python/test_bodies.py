@@ -240,6 +240,12 @@ def test_planes_and_kinematic_bodies_have_no_mass(world):
             world.add_rigid_body(shape, 1, **settings)
 
 
+def test_bodies_without_mass_have_no_velocity(world):
+    for name in ("velocity", "angular_velocity"):
+        with pytest.raises(ValueError, match="velocity is not 0"):
+            world.add_rigid_body(bf.Shape.sphere(1), **{name: (1, 0, 0)})
+
+
 def test_rigid_bodies_move(free):
     body = free.add_rigid_body(bf.Shape.sphere(0.1), 2, velocity=(1, 0, 0), angular_velocity=(0, 1, 0))
     free.step(60)

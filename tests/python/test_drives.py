@@ -40,6 +40,21 @@ def test_anchored_nodes_and_bad_influences_are_refused(world):
         body.anchor([27], bar)
 
 
+def test_anchored_bodies_collide_if_asked_or_free(free):
+    def depth(collide, then_free):
+        world = bf.World(gravity=(0, 0, 0))
+        plate = world.add_rigid_body(bf.Shape.box((1, 0.1, 1)), position=(0, -0.2, 0))
+        body = world.add_soft_body(cube_mesh(), bf.Material(young_modulus=1e5), velocity=(0, -1, 0))
+        body.anchor([26], plate, collide=collide, influence=1e-6)
+        if then_free:
+            body.unanchor()
+        world.step(30)
+        return body.positions[:, 1].min()
+
+    assert depth(False, False) < -0.3
+    assert depth(True, False) > -0.2 and depth(False, True) > -0.2
+
+
 def test_anchors_go_with_their_rigid_body(world):
     bar = world.add_rigid_body(bf.Shape.sphere(0.1), 1, position=(0, 0.5, 0))
     body = world.add_soft_body(cube_mesh())
@@ -221,8 +236,9 @@ def test_voronoi_labels_and_bad_labels(floating):
     for bad, kind in ((labels[1:], ValueError), (labels.astype(float), TypeError)):
         with pytest.raises(kind):
             floating.cut(bad, bf.Material())
-    with pytest.raises(TypeError, match="Material"):
-        floating.cut(labels, None)
+    for material in (None, "rubber"):
+        with pytest.raises(TypeError, match="Material"):
+            floating.cut(labels, material)
     floating.world.step()
 
 

@@ -83,7 +83,7 @@ def test_numbers_out_of_range_are_refused(world, value):
         world.add_rigid_body(bf.Shape.sphere(1), value)
 
 
-@pytest.mark.parametrize("value", ["1", None, 1j, np.ones(1), [1]])
+@pytest.mark.parametrize("value", ["1", None, 1j, np.complex64(1), np.bool_(True), np.ones(1), np.array(1.0), [1], object()])
 def test_other_objects_are_no_numbers(world, value):
     with pytest.raises(TypeError, match="mass is .*: it must be a real number"):
         world.add_rigid_body(bf.Shape.sphere(1), value)

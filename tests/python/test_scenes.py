@@ -2,12 +2,13 @@
 # Copyright (c) 2026 The BulletFEM authors
 """Worlds of JSON scenes, and pictures."""
 import json
+import zlib
 
 import numpy as np
 import pytest
 
 import bulletfem as bf
-from conftest import ROOT, cube_mesh
+from conftest import ROOT
 
 SCENES = ROOT / "demos" / "scenes"
 
@@ -95,3 +96,18 @@ def test_unusable_pictures_are_refused(cube, settings):
 
 def test_an_empty_world_has_a_picture(world):
     assert rendered(world, 32, 32).shape == (32, 32, 3)
+
+
+def test_notebooks_get_png_files(cube):
+    rendered(cube.world, 16, 16)
+    data = cube.world._repr_png_()
+    assert data.startswith(b"\x89PNG") and b"IEND" in data
+
+
+def test_png_files_keep_their_pixels():
+    from bulletfem._png import png
+    pixels = np.random.default_rng(1).integers(0, 256, (5, 7, 3), dtype=np.uint8)
+    data = png(pixels)
+    length = int.from_bytes(data[33:37], "big")
+    rows = np.frombuffer(zlib.decompress(data[41:41 + length]), np.uint8).reshape(5, 22)
+    assert not rows[:, 0].any() and np.array_equal(rows[:, 1:].reshape(5, 7, 3), pixels)
