@@ -26,9 +26,9 @@ from ._core import (
 from ._png import png as _png
 
 
-def _repr_png_(world: World) -> bytes | None:
+def _repr_png_(self: World) -> bytes | None:
     """A picture of the world, for notebooks; None if the module was built without pictures."""
-    return _png(world.render()) if has_pictures else None
+    return _png(self.render()) if has_pictures else None
 
 
 setattr(World, "_repr_png_", _repr_png_)

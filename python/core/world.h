@@ -22,15 +22,13 @@ struct JointEntry
     int m_a = -1, m_b = -1;                           ///< indices of its bodies; -1: the world
 };
 
-/// A world with its bodies and joints, known by indices that are never used again.
+/// A world with its bodies and joints, known by indices that are never used again. Not copied, as its members are not.
 class World
 {
 public:
     /// `factorsInBackground`: the solver has a thread for it.
     World(std::unique_ptr<BulletWorld> bullet, double step, bool factorsInBackground);
     ~World();
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
 
     /// Leave their argument alone if they throw.
     int add(std::unique_ptr<SoftEntry>&& soft, const std::string& name, int group, int mask);
