@@ -10,6 +10,9 @@ build_packages=(g++ cmake ninja-build libbullet-dev libeigen3-dev libhwy-dev lib
 picture_packages=(pkg-config libepoxy-dev libegl-dev libstb-dev fonts-dejavu-core libglfw3-dev libimgui-dev libgl1
     libegl-mesa0 libgl1-mesa-dri)
 
+# Needed for the Python module and its tests.
+python_packages=(python3-dev pybind11-dev python3-pybind11 python3-numpy python3-pytest mypy)
+
 say() { printf '== %s\n' "$*"; }
 fail() { printf 'error: %s\n' "$*" >&2; exit 1; }
 

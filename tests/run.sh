@@ -14,7 +14,7 @@ meshes=data/meshes # path in the package and path expected by the tests
 # clang is for the fuzzers of the file readers. Two optional packages with more than a hundred dependencies enable
 # further tests: Gmsh (its files) and libvalijson-dev (schema of scenes against the reader).
 install_packages "${build_packages[@]}" "${picture_packages[@]}" libgtest-dev libgmock-dev \
-    xvfb xauth clang libclang-rt-14-dev
+    xvfb xauth clang libclang-rt-14-dev "${python_packages[@]}"
 
 if [ ! -d "$build/meshes/$meshes" ]; then
     say "extracting $meshes from $mesh_package"
@@ -25,7 +25,8 @@ everything=OFF
 [ $# -eq 0 ] || everything=ON
 say "building in $build"
 (cd "$root" && cmake --preset release -DBULLETFEM_UNITY=8 -DBULLETFEM_BUILD_TESTS=ON \
-    -DBULLETFEM_BUILD_SLOW_TESTS="$everything" -DBULLETFEM_BUILD_BENCHMARKS="$everything")
+    -DBULLETFEM_BUILD_SLOW_TESTS="$everything" -DBULLETFEM_BUILD_BENCHMARKS="$everything" \
+    -DBULLETFEM_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3) # Debian's, which has the packages
 cmake --build "$build" --parallel "$(nproc)"
 
 # One test uses the Khronos validator from npm; it is skipped with a message if that is unavailable.

@@ -19,7 +19,7 @@ import re
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SOURCES = ("fem", "bullet_bridge", "plugin", "io", "tools", "demos", "benchmarks", "include")
+SOURCES = ("fem", "bullet_bridge", "plugin", "io", "tools", "demos", "benchmarks", "python", "include")
 
 
 def ladder(top, rooms):
@@ -46,6 +46,7 @@ LAYERS = {
     "plugin": ["plugin", "bullet_bridge", "io", "fem"],
     "tools": ["tools", "plugin", "io", "fem"],
     "demos": ["demos", "tools", "plugin", "io", "fem"],
+    "python": ["python", "tools", "plugin", "io", "fem"],
     "benchmarks": ["benchmarks", "tools", "plugin", "bullet_bridge", "io", "fem"],
 }
 MOST_LINES_OF_FILE = 400

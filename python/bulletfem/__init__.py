@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Zlib
+# Copyright (c) 2026 The BulletFEM authors
+"""Soft bodies of finite elements in Bullet's worlds, in double precision.
+
+All quantities are in SI units. Vectors are arrays (3,), orientations quaternions (x, y, z, w). Arrays that are returned
+are fresh, contiguous and of float64 or int32; those named *_view share the memory of Bullet's nodes.
+"""
+from __future__ import annotations
+
+from ._core import (
+    BakedBody,
+    ElementMaterials,
+    Joint,
+    Material,
+    Mesh,
+    RigidBody,
+    Shape,
+    SoftBody,
+    StepReport,
+    World,
+    __version__,
+    contact_dtype,
+    has_pictures,
+    touch_dtype,
+)
+from ._png import png as _png
+
+
+def _repr_png_(self: World) -> bytes | None:
+    """A picture of the world, for notebooks; None if the module was built without pictures."""
+    return _png(self.render()) if has_pictures else None
+
+
+setattr(World, "_repr_png_", _repr_png_)
+
+__all__ = [
+    "BakedBody",
+    "ElementMaterials",
+    "Joint",
+    "Material",
+    "Mesh",
+    "RigidBody",
+    "Shape",
+    "SoftBody",
+    "StepReport",
+    "World",
+    "__version__",
+    "contact_dtype",
+    "has_pictures",
+    "touch_dtype",
+]
