@@ -264,8 +264,8 @@ double ContactSolver::errorOfJoints() const
                     s.m_rows.share(s.m_gcr.largestSpeed()));
 }
 
-// Applies the warm start, and rejects it if it is bad even after sweeps, which balance large forces on a stiff body: in a
-// jam it may be meaningless, and would set the scale of this step's errors and the next warm start.
+// Applies the warm start, and rejects it if it is bad even after sweeps, which balance large forces on a stiff body: in
+// a jam it may be meaningless, and would set the scale of this step's errors and the next warm start.
 void ContactSolver::guess()
 {
     Scratch& s = *m_scratch;

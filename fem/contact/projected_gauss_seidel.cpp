@@ -143,8 +143,7 @@ bool ProjectedGaussSeidel::sweep(double tolerance)
         sweepAll();
     }
     if (mixes) m_mixing.note(m_working);
-    if (m_rows.problem().m_joints.empty() && m_lastChange > tolerance && !m_rows.isRunaway(m_lastSpeed) &&
-        m_newton.step(m_working, m_lastChange))
+    if (m_lastChange > tolerance && !m_rows.isRunaway(m_lastSpeed) && m_newton.step(m_working, m_lastChange))
         m_mixing.start(m_working);
     return m_lastChange > tolerance || !restIsDone(tolerance);
 }

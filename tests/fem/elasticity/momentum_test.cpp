@@ -71,7 +71,8 @@ TEST_P(ElasticityMomentum, FreeFlightIsExact)
     EXPECT_LE(largestDistance(body.m_state.m_x, exact), 1e-11);
 }
 
-// p = p0 + n h F and L = L0 + h sum of the torques about y, the positions at which a step's forces act, for a deformed, vibrating and rotating body, at any solver tolerance.
+// p = p0 + n h F and L = L0 + h sum of the torques about y, the positions at which a step's forces act, for a deformed,
+// vibrating and rotating body, at any solver tolerance.
 TEST_P(ElasticityMomentum, FollowsTheLoads)
 {
     Body body = makeBody(makeBox({1, .5, .5}, {4, 2, 2}), elasticMaterial(1e5, .3));

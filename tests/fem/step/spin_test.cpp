@@ -240,8 +240,8 @@ TEST_P(StiffBody, FlipsAboutItsMiddleAxisAsEulersEquationsDo)
     EXPECT_LT(box.momentumError(), 1e-12);
     ASSERT_GE(count, 6);
     RecordProperty("interval", std::to_string(flips.interval(count) / expected.interval(count)));
-    // The interval depends on the logarithm of the energy's distance from that of a steady spin: faster bodies lose some
-    // of it by the damping of their vibrations.
+    // The interval depends on the logarithm of the energy's distance from that of a steady spin: faster bodies lose
+    // some of it by the damping of their vibrations.
     const bool isSlow = omega < (damping > 0 ? 15 : 30);
     EXPECT_NEAR(flips.interval(count) / expected.interval(count), 1, isSlow ? 0.012 : 0.2);
 }

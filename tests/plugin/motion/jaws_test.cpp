@@ -91,7 +91,8 @@ protected:
     }
 };
 
-// Without friction the stress is uniaxial; ends that stick bear more.
+// Without friction the stress is uniaxial; ends that stick bear more. At 1 GPa the small bodies' elastic compliance is
+// 1e-6 of the rigid one, and single precision leaves a tenth of it.
 TEST_P(Jaws, PressWithTheForceOfTheStrain)
 {
     const auto& [coupling, clamped, young, hasFriction] = GetParam();
@@ -107,20 +108,28 @@ TEST_P(Jaws, PressWithTheForceOfTheStrain)
     EXPECT_LT(result.m_deepest, 0.001 * clamped.m_size);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Bodies, Jaws,
-    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                     testing::Values(Clamped{"SmallCube", 0.04, 1, 1.100, 60},
-                                     Clamped{"SmallCube", 0.04, 1, 1.100, 240}, Clamped{"SmallBar", 0.04, 3, 1.145, 60},
-                                     Clamped{"LargeCube", 0.4, 1, 1.100, 60}, Clamped{"LargeBar", 0.4, 3, 1.145, 60}),
-                     testing::Values(1e5, 1e6, 1e7, 1e8, 1e9), testing::Bool()),
-    [](const auto& suite)
-    {
-        const Clamped& clamped = std::get<1>(suite.param);
-        return std::string(couplingName(std::get<0>(suite.param))) + "_" + clamped.m_name + "_" +
-               nameOfYoung(std::get<2>(suite.param)) + "_" + nameOfStep(1 / clamped.m_frequency) +
-               (std::get<3>(suite.param) ? "_Friction" : "");
-    });
+std::string nameOfJaws(const testing::TestParamInfo<Jaws::ParamType>& suite)
+{
+    const Clamped& clamped = std::get<1>(suite.param);
+    return std::string(couplingName(std::get<0>(suite.param))) + "_" + clamped.m_name + "_" +
+           nameOfYoung(std::get<2>(suite.param)) + "_" + nameOfStep(1 / clamped.m_frequency) +
+           (std::get<3>(suite.param) ? "_Friction" : "");
+}
+
+// At 1 GPa the elastic compliance of small bodies is 1e-6 of the rigid one, which single precision resolves badly.
+INSTANTIATE_TEST_SUITE_P(Small, Jaws,
+                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                                          testing::Values(Clamped{"SmallCube", 0.04, 1, 1.100, 60},
+                                                          Clamped{"SmallCube", 0.04, 1, 1.100, 240},
+                                                          Clamped{"SmallBar", 0.04, 3, 1.145, 60}),
+                                          testing::Values(1e5, 1e6, 1e7, 1e8), testing::Bool()),
+                         nameOfJaws);
+INSTANTIATE_TEST_SUITE_P(Large, Jaws,
+                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                                          testing::Values(Clamped{"LargeCube", 0.4, 1, 1.100, 60},
+                                                          Clamped{"LargeBar", 0.4, 3, 1.145, 60}),
+                                          testing::Values(1e5, 1e6, 1e7, 1e8, 1e9), testing::Bool()),
+                         nameOfJaws);
 
 }  // namespace
 }  // namespace bullet_fem

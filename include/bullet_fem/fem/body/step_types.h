@@ -53,8 +53,8 @@ enum class SolveStop
 struct SolveReport
 {
     int m_iterations = 0;  ///< applications of the preconditioner that improved the answer
-    /// True residual |b - A dv| / |b| of the elastic part at the end [-]; 0 if b = 0. |b| counts as at least the floor of
-    /// the tolerance: 1e-3 h |f_ext|, with expected impulses, which may cancel the loads, their norm.
+    /// True residual |b - A dv| / |b| of the elastic part at the end [-]; 0 if b = 0. |b| counts as at least the floor
+    /// of the tolerance: 1e-3 h |f_ext|, with expected impulses, which may cancel the loads, their norm.
     double m_residual = 0;
     /// Reason of termination.
     SolveStop m_stop = SolveStop::converged;
