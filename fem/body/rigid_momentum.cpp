@@ -302,17 +302,6 @@ RigidMomentum::Share RigidMomentum::responseTo(const Share& share) const
             m_impulseShare * (component.m_inverseInertia * share.m_angular)};
 }
 
-double RigidMomentum::rigidWork(const Body& body, const std::vector<Vec3>& impulses) const
-{
-    sumImpulses(body, impulses);
-    double work = 0;
-    for (const Component& component : m_components)
-        if (component.m_isMovable)
-            work += dot(component.m_linearVelocity, component.m_linearVelocity) / component.m_mass +
-                    dot(component.m_angularVelocity, component.m_inverseInertia * component.m_angularVelocity);
-    return m_impulseShare * work;
-}
-
 Vec3 RigidMomentum::spin(const Component& component) const
 {
     const bool hangs = component.m_pivot >= 0;

@@ -70,9 +70,6 @@ public:
     /// True if the components that move are those with rest modes, which may be taken out of A0^-1.
     bool hasRestModes() const { return m_hasRestModes; }
 
-    /// True if any component can move rigidly.
-    bool movesAny() const { return m_anyMovable; }
-
     /// Adds factor W x (W x r) at the nodes of movable components, with the spin W of the prescription; for components
     /// that hang on fixed nodes, whose weight accelerates them, that of the middle of the step.
     void addInward(const Body& body, double factor, std::vector<Vec3>& change) const;
@@ -95,9 +92,6 @@ public:
     Share responseTo(const Share& share) const;
 
     bool isMovable(int component) const { return m_components[component].m_isMovable; }
-
-    /// Work of node impulses J [N s] on the rigid velocities that they cause [J].
-    double rigidWork(const Body& body, const std::vector<Vec3>& impulses) const;
 
     /// Removes the rigid motion from a change of velocities, so that it gives no movable component momentum at the
     /// positions x. Invalidates the prescription.
