@@ -260,9 +260,7 @@ bool btFemContactGroup::sweep(double others)
 
 void btFemContactGroup::correct()
 {
-    const btFemStopwatch watch;
-    m_solver.correct();
-    m_milliseconds += watch.milliseconds();
+    onSolverBodies([this] { m_solver.correct(); });
 }
 
 void btFemContactGroup::restoreBest()
