@@ -173,10 +173,10 @@ void SoftBodyContacts::learn(const Lesson& lesson)
     m_learnt = true;
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
-    if (m_points.points() > 0) m_points.scaleElastic(m_body, factor, m_shares);
+    if (m_points.points() > 0) m_points.scaleElastic(factor);
     if (!m_dense) return;
     formOwn();
-    m_working.reset(size());
+    m_working.reset(size(), static_cast<int>(m_motions.size()));
 }
 
 }  // namespace bullet_fem

@@ -33,11 +33,16 @@ void CoarseCorrection::begin()
 {
     const std::vector<ContactRow>& all = m_rows.rows();
     const std::size_t rows = all.size();
-    std::size_t pairs = 0, longest = 0;
+    std::size_t pairs = 0, longest = 0, components = 0;
     for (std::size_t k = 0; k < rows; ++k)
         if (k == 0 || !sharesOwners(all[k], all[k - 1])) ++pairs;
     for (std::size_t b = 0; b < m_rows.problem().m_bodies.size(); ++b)
-        longest = std::max(longest, static_cast<std::size_t>(m_rows.body(static_cast<int>(b)).size()));
+    {
+        SoftBodyContacts& body = m_rows.body(static_cast<int>(b));
+        longest = std::max(longest, static_cast<std::size_t>(body.size()));
+        components = std::max(components, body.working().components());
+    }
+    m_motions.reserve(components);
     m_patterns.reserve(rows);
     m_pairs.reserve(pairs);
     m_sides.reserve(2 * pairs);
@@ -247,13 +252,18 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
     const int bodies = static_cast<int>(m_rows.problem().m_bodies.size());
     Vec3 force, torque;
     m_responses.clear();
+    if (side.m_owner < bodies) m_motions.assign(m_rows.body(side.m_owner).working().components(), RigidMotion());
     for (int k = rows.m_begin; k < rows.m_end; ++k)
     {
         if (!m_patterns[k].m_carries) continue;
         const ConstraintSide& end = endOf(working[k], side);
         const Vec3 impulse = sign * m_patterns[k].m_of[unknown];
         if (side.m_owner < bodies)
-            m_responses.push_back(m_rows.body(side.m_owner).working().response(end.m_end, impulse));
+        {
+            const WorkingSet& set = m_rows.body(side.m_owner).working();
+            m_responses.push_back(set.response(end.m_end, impulse));
+            set.pushRigid(end.m_end, impulse, m_motions);
+        }
         force += impulse;
         torque += cross(end.m_arm, impulse);
     }
@@ -271,7 +281,7 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
 Vec3 CoarseCorrection::responseAt(int owner, const ConstraintSide& end)
 {
     if (owner < static_cast<int>(m_rows.problem().m_bodies.size()))
-        return m_rows.body(owner).working().read(end.m_end, m_velocity);
+        return m_rows.body(owner).working().read(end.m_end, m_velocity, m_motions);
     return m_linear + cross(m_angular, end.m_arm);
 }
 

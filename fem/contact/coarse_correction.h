@@ -84,8 +84,9 @@ private:
     std::vector<unsigned char> m_held;
     std::vector<double> m_unknowns;
     std::vector<Response> m_responses;
-    std::vector<double> m_velocity;  // velocities of the working set of one body
-    Vec3 m_linear, m_angular;        // velocity of one rigid proxy
+    std::vector<double> m_velocity;      // elastic velocities of the working set of one body
+    std::vector<RigidMotion> m_motions;  // and its rigid motions
+    Vec3 m_linear, m_angular;            // velocity of one rigid proxy
 };
 
 }  // namespace bullet_fem

@@ -9,6 +9,12 @@
 
 namespace bullet_fem
 {
+namespace
+{
+
+constexpr double kForgotten = 1e-6;  // share of the slowest speed below which a warm start is dropped [-]
+
+}  // namespace
 
 // The normal, a perpendicular unit vector, and their cross product.
 void ContactRows::setAxes(const Vec3& n, ContactRow& row)
@@ -35,6 +41,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     forEachContactBody(threadsForCompliance(),
                        [&](int b) { m_bodies[b].assemble(settings.m_denseLimit, settings.m_step.m_step); });
     m_loadSpeed = 0;
+    m_largestWanted = 0;
     m_shortestEdge = std::numeric_limits<double>::max();
     for (std::size_t b = 0; b < problem.m_bodies.size(); ++b)
     {
@@ -46,8 +53,9 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     }
     forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].form(); });
     finishRows();
-    for (ContactRow& row : m_rows)
-        if (row.m_idle && !row.m_joint) row.m_impulse = {};  // a warm start that no sweep would ever change
+    const double least = kForgotten * slowestSpeed();
+    for (ContactRow& row : m_rows)  // warm starts that no sweep would ever change
+        if (!row.m_joint && (row.m_idle || speedOf(row, row.m_impulse) < least)) row.m_impulse = {};
     pressOnTorsions();
     pushStarts(true);
     runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),

@@ -137,11 +137,22 @@ void ContactRows::measure()
     forEachContactBody(threadsForCompliance(), [this](int b) { m_bodies[b].measure(); });
 }
 
-void ContactRows::setSpeedScale(double wanted)
+void ContactRows::setSpeedScale(double missing)
 {
-    m_speedScale = std::max(m_loadSpeed, wanted);
-    if (m_loadSpeed > 0) return;
-    for (const ContactRow& row : m_rows) m_speedScale = std::max(m_speedScale, speedOf(row, row.m_impulse));
+    m_speedScale = std::max({slowestSpeed(), m_loadSpeed, missing});
+}
+
+double ContactRows::missingSpeed()
+{
+    return largestOfRows([this](int k) { return missingSpeed(m_rows[k]); });
+}
+
+double ContactRows::missingSpeed(const ContactRow& row) const
+{
+    const Vec3 v = trueVelocity(row);
+    if (!row.m_joint) return violation(row, v);
+    const Vec3 missing = row.m_target - Vec3{dot(row.m_axes[0], v), dot(row.m_axes[1], v), dot(row.m_axes[2], v)};
+    return std::min(norm(missing), speedOf(row, wantedImpulse(row, {}, v, 1)));  // a weak motor cannot do more
 }
 
 double ContactRows::share(double speed) const
@@ -151,7 +162,7 @@ double ContactRows::share(double speed) const
 
 bool ContactRows::isRunaway(double speed) const
 {
-    return m_speedScale > 0 && !(speed <= kRunaway * m_speedScale);
+    return !(speed <= kRunaway * std::max(m_speedScale, m_largestWanted));
 }
 
 bool ContactRows::rests(const ContactRow& row) const
@@ -194,18 +205,19 @@ RowSurvey ContactRows::survey()
                 const ContactRow& row = m_rows[k];
                 m_wants[k] = !rests(row);
                 if (!m_wants[k]) continue;
-                const double wanted = wantedSpeed(row);
-                double& largest = isSolvedAtOnce(row) ? ofChunk.m_joints : ofChunk.m_wanted;
-                largest = std::max(largest, wanted);
-                if (!isSolvedAtOnce(row) && !movesRigid(row)) ofChunk.m_guessed = std::max(ofChunk.m_guessed, wanted);
                 ofChunk.m_closing = std::max(ofChunk.m_closing, violation(row, trueVelocity(row)));
+                if (isSolvedAtOnce(row)) continue;
+                const double wanted = wantedSpeed(row);
+                ofChunk.m_wanted = std::max(ofChunk.m_wanted, wanted);
+                if (!movesRigid(row)) ofChunk.m_guessed = std::max(ofChunk.m_guessed, wanted);
             }
             found[p] = ofChunk;
         });
     RowSurvey all;
     for (const RowSurvey& piece : found)
         all = {std::max(all.m_wanted, piece.m_wanted), std::max(all.m_guessed, piece.m_guessed),
-               std::max(all.m_joints, piece.m_joints), std::max(all.m_closing, piece.m_closing)};
+               std::max(all.m_closing, piece.m_closing)};
+    m_largestWanted = all.m_wanted;
     return all;
 }
 
@@ -311,11 +323,6 @@ double ContactRows::violation(const ContactRow& row, const Vec3& trueVelocity) c
     const double separating = dot(row.m_axes[0], trueVelocity);
     const double yields = row.m_yield.x * dot(row.m_axes[0], row.m_impulse);
     return row.m_target.x - separating - yields;
-}
-
-double ContactRows::worstViolation()
-{
-    return largestOfRows([this](int k) { return violation(m_rows[k], trueVelocity(m_rows[k])); });
 }
 
 void ContactRows::noteReactions()

@@ -20,7 +20,6 @@ struct RowSurvey
 {
     double m_wanted = 0;   ///< maximum velocity change of a contact's point by its local solution
     double m_guessed = 0;  ///< that maximum over contacts without a movable rigid proxy
-    double m_joints = 0;   ///< that maximum over joints within their limits
     double m_closing = 0;  ///< maximum excess of a contact's approach speed over the allowed one
 };
 
@@ -67,6 +66,15 @@ public:
     /// angular impulses.
     Mat3 compliance(const ConstraintSide& of, const ConstraintSide& from) const;
 
+    /// Mean compliance of a row's own sides by the elastic response of dense bodies, which has the rounding of single
+    /// precision [1/kg].
+    double elasticCompliance(const ContactRow& row) const
+    {
+        const auto ofSide = [this](const ConstraintSide& side)
+        { return side.m_body >= 0 ? m_bodies[side.m_body].elasticCompliance(side.m_end) : 0; };
+        return ofSide(row.m_a) + ofSide(row.m_b);
+    }
+
     /// Index of the object that impulses on a side move: bodies, then rigid proxies; -1: none.
     int mover(const ConstraintSide& end) const;
     std::size_t movers() const { return m_problem->m_bodies.size() + m_problem->m_rigidProxies.size(); }
@@ -111,10 +119,12 @@ public:
     /// Updates the sides' velocities from the bodies' true ones.
     void measure();
 
-    /// Sets the scale of errors: the speed that the loads give a body in a step, or the largest change that a row
-    /// requires now, `wanted` [m/s]; without loads, also the change by the warm start.
-    void setSpeedScale(double wanted);
+    /// Sets the scale of errors: the speed that the loads give a body in a step, or a missing speed [m/s].
+    void setSpeedScale(double missing);
     double speedScale() const { return m_speedScale; }
+
+    /// Lower bound of the scale: a motion per step of 1e-4 element edges [m/s].
+    double slowestSpeed() const { return 1e-4 * m_shortestEdge / m_settings.m_step.m_step; }
 
     /// Minimum of the mean element edges of the bodies with sides [m].
     double shortestEdge() const { return m_shortestEdge; }
@@ -153,8 +163,9 @@ public:
     /// the error.
     bool isTooSoft() const;
 
-    /// Maximum excess of a contact's true approach speed over the allowed one [m/s].
-    double worstViolation();
+    /// Maximum excess of a contact's true approach speed over the allowed one, and of the speeds that joints must
+    /// change from zero impulses [m/s].
+    double missingSpeed();
 
     /// See SoftBodyContacts.
     void noteReactions();
@@ -221,6 +232,7 @@ private:
     }
     Vec3 trueVelocity(const ContactRow& row) const;
     double violation(const ContactRow& row, const Vec3& trueVelocity) const;
+    double missingSpeed(const ContactRow& row) const;
     Vec3 newSlip(const ContactRow& row, const ContactPoint& contact) const;
     bool rests(const ContactRow& row) const;
     void react(const ConstraintSide& end, const Vec3& impulse);
@@ -253,9 +265,10 @@ private:
     std::vector<int> m_jointPoints;      // per joint, for sides a and b: their points on their bodies, or -1
     std::vector<unsigned char> m_wants;  // per row
     bool m_dense = true;
-    double m_shortestEdge = 0;  // [m]
-    double m_loadSpeed = 0;     // [m/s]
-    double m_speedScale = 0;    // scale of errors [m/s]
+    double m_shortestEdge = 0;   // [m]
+    double m_loadSpeed = 0;      // [m/s]
+    double m_speedScale = 0;     // scale of errors [m/s]
+    double m_largestWanted = 0;  // at the last survey [m/s]
 };
 
 }  // namespace bullet_fem

@@ -130,14 +130,12 @@ constexpr double kForcing = 0.1;
 constexpr double kRestShare = 0.01;   // share of the tolerance
 constexpr double kFinestRest = 3e-6;  // lower bound [-]
 
-// With a better warm start than this, bodies are nearly at rest, and the remaining error on the coarse level would tilt
-// stacks. Falling, sliding and tipping bodies have other contact points in every step, and would need more sweeps for
-// it.
+// If the warm start leaves less than this share of the loads' speed, bodies are nearly at rest, and the remaining error
+// on the coarse level would tilt stacks; others would only need more sweeps for it.
 constexpr double kCalmGuess = 2e-2;
 
-// A warm start is rejected if it makes points approach or separate this many times faster than without it, or than the
-// loads do. Points of movable rigid proxies are excluded: their other contacts, which have no warm start, may balance
-// it.
+// A warm start is rejected if it makes points approach or separate this many times faster than without it. Points of
+// movable rigid proxies are excluded: their other contacts, which have no warm start, may balance it.
 constexpr double kBadGuess = 5;
 
 // A step never ends with impulses that leave more speed than at its beginning (relative error some 1) and this many
@@ -219,6 +217,8 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_isCalm = false;
     s.m_progress = {};
     s.m_stalled = s.m_loose = s.m_othersMoved = false;
+    const double missing = s.m_rows.missingSpeed();
+    s.m_rows.setSpeedScale(missing);
     // The warm start is first tested on the true system, so that W serves only for the difference.
     const bool guesses = anyExpects || s.m_rows.hasImpulses();
     if (guesses)
@@ -230,14 +230,15 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         s.m_gcr.look();
     }
     if (s.m_rows.settleRigidContacts() || !guesses) s.m_found = s.m_sweeps.look();
-    s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
+    // A warm start that is balanced up to one per cent may leave a stiff body a thousand times the missing speed.
+    s.m_rows.setSpeedScale(std::min(missing, std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed())));
     const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
     s.m_settings.m_tolerance = std::min(settings.m_tolerance, std::max(shareOfEdge, kFinestTolerance));
     s.m_error = errorNow();
     s.m_goal = std::max(kRestShare * s.m_settings.m_tolerance, std::min(s.m_settings.m_tolerance, kFinestRest));
     s.m_settings.m_tolerance = std::clamp(kForcing * s.m_error, s.m_goal, s.m_settings.m_tolerance);
     if (!joints) s.m_floor = residualFloor(s.m_settings.m_tolerance, settings.m_step.m_tolerance);
-    s.m_isCalm = s.m_error < kCalmGuess;
+    s.m_isCalm = std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed()) < kCalmGuess * s.m_rows.loadSpeed();
     s.m_best = std::numeric_limits<double>::infinity();
     if (guesses || !joints) noteBest();  // zero impulses of joints are no acceptable solution
 }
@@ -269,14 +270,13 @@ double ContactSolver::errorOfJoints() const
 void ContactSolver::guess()
 {
     Scratch& s = *m_scratch;
-    const double without = std::max(s.m_rows.worstViolation(), s.m_rows.loadSpeed());
+    const double without = s.m_rows.speedScale();
     s.m_rows.warmStart();
     s.m_guessing = true;
     correct();
     s.m_guessing = false;
     const auto isBad = [&] { return std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without; };
     if (!isBad()) return;
-    s.m_rows.setSpeedScale(std::max(s.m_found.m_wanted, s.m_found.m_joints));
     for (int k = 0; k < s.m_settings.m_sweeps && sweep();) ++k;
     correct();
     if (!isBad()) return;

@@ -85,57 +85,37 @@ void PointCompliance::form(const ContactBody& body, double scale, const std::vec
     m_floatWeight.assign(m_weight.begin(), m_weight.end());
     m_columns.reserve(3 * m_rows * points());
     m_terms.reserve(SurfacePoint::kMaxNodes);
-    combine(body, shares, 1, 1);
-}
-
-void PointCompliance::scaleElastic(const ContactBody& body, double factor,
-                                   const std::vector<RigidMomentum::Share>& shares)
-{
-    combine(body, shares, factor, 1 - factor);
-}
-
-// N = ofN N + ofRigid G (G^T M G)^-1 G^T, in the rows of the nodes.
-void PointCompliance::combine(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, double ofN,
-                              double ofRigid)
-{
-    growTo(m_rigid, 6 * m_rows);
-    const int components = body.m_body->m_model->mesh().componentCount();
-    for (int c = 0; c < components; ++c) combineColumns(body, shares, c, ofN, ofRigid);
     mirrorNodeColumns();
+    forgetColumns();
+    setRigid(body, shares);
+}
+
+void PointCompliance::scaleElastic(double factor)
+{
+    for (std::size_t k = 0; k < 3 * m_rows * static_cast<std::size_t>(slots()); ++k)
+        m_N[k] = static_cast<float>(factor * m_N[k]);
     forgetColumns();
 }
 
-void PointCompliance::combineColumns(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares,
-                                     int component, double ofN, double ofRigid)
+void PointCompliance::setRigid(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares)
 {
     const RigidMomentum& momentum = body.m_body->m_workspace.scratch().m_momentum;
-    const auto isOf = [&](const RigidMomentum::Share& share) { return share.m_component == component; };
-    if (std::none_of(shares.begin(), shares.end(), isOf)) return;
-    std::fill(m_rigid.begin(), m_rigid.begin() + static_cast<std::ptrdiff_t>(6 * m_rows), 0.f);
-    for (std::size_t t = 0; t < shares.size(); ++t)
-        for (std::size_t k = 0; k < 6 && isOf(shares[t]); ++k)
-            for (std::size_t i = 0; i < 3; ++i)
-                m_rigid[k * m_rows + 3 * t + i] =
-                    static_cast<float>(k < 3 ? shares[t].m_linear(static_cast<int>(k), static_cast<int>(i))
-                                             : shares[t].m_angular(static_cast<int>(k - 3), static_cast<int>(i)));
-    const float* arrays[7] = {};
-    float weights[7] = {static_cast<float>(ofN)};
-    for (std::size_t k = 0; k < 6; ++k) arrays[k + 1] = &m_rigid[k * m_rows];
-    for (std::size_t t = 0; t < shares.size(); ++t)
+    m_components = body.m_body->m_model->mesh().componentCount();
+    m_rigidOfSlot.assign(slots(), RigidSide());
+    for (std::size_t t = 0; t < shares.size(); ++t) m_rigidOfSlot[t] = {shares[t], momentum.responseTo(shares[t])};
+    m_rigid.assign(points(), RigidSide());
+    for (int p = 0; p < points(); ++p)
+        for (int k = m_first[p]; k < m_first[p + 1]; ++k) m_rigid[p].add(m_weight[k], m_rigidOfSlot[m_slot[k]]);
+}
+
+void PointCompliance::addRigid(const std::vector<RigidMotion>& motions, std::vector<double>& slotValues) const
+{
+    for (int slot = 0; slot < slots(); ++slot)
     {
-        if (!isOf(shares[t])) continue;
-        const RigidMomentum::Share response = momentum.responseTo(shares[t]);
-        for (int c = 0; c < 3; ++c)
-        {
-            for (int k = 0; k < 3; ++k)
-            {
-                weights[1 + k] = static_cast<float>(ofRigid * response.m_linear(k, c));
-                weights[4 + k] = static_cast<float>(ofRigid * response.m_angular(k, c));
-            }
-            float* values = column(3 * t + static_cast<std::size_t>(c));
-            arrays[0] = values;
-            addWeighted({arrays, weights, 7}, m_rows, values);
-        }
+        const RigidSide& side = m_rigidOfSlot[slot];
+        if (side.component() < 0) continue;
+        const Vec3 v = side.velocity(motions[side.component()]);
+        for (int i = 0; i < 3; ++i) slotValues[3 * static_cast<std::size_t>(slot) + i] += v[i];
     }
 }
 
@@ -198,7 +178,7 @@ Mat3 PointCompliance::readColumns(int point, const float* columns) const
 
 Mat3 PointCompliance::block(int e, int f) const
 {
-    Mat3 w;
+    Mat3 w = m_rigid[e].block(m_rigid[f]);
     for (int l = m_first[f]; l < m_first[f + 1]; ++l)
         w += m_weight[l] * readColumns(e, column(3 * static_cast<std::size_t>(m_slot[l])));
     return w;

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "bullet_fem/fem/contact/contact_problem.h"
-#include "fem/body/rigid_momentum.h"
 #include "fem/contact/response_kernel.h"
+#include "fem/contact/rigid_side.h"
 
 namespace bullet_fem
 {
 
-/// Compliance between points of a body's surface: W = S^T N S, with the points' weights S and the blocks N_ij between
-/// nodes: the rigid response at the present positions, plus an elastic one, a scale s times R_i B_ij R_j^T, B = A0^-1
-/// without rest modes. Nodes outside the factor have only the inverse diagonal in B, fixed ones zero in N. Points
-/// outnumber the nodes, and few of them ever carry an impulse: W is never formed as a whole, but only the required
-/// columns N S. A side that is no weighted mean of nodes has a slot of its own after the nodes, whose part of N is set
-/// from outside. Symmetric. Grows, never shrinks.
+/// Compliance between points of a body's surface: the rigid response at the present positions, six numbers per point
+/// and axis in double precision, plus an elastic one, S^T N S, with the points' weights S and the blocks N_ij between
+/// nodes, a scale s times R_i B_ij R_j^T, B = A0^-1 without rest modes. Nodes outside the factor have only the inverse
+/// diagonal in B, fixed ones zero in N. Points outnumber the nodes, and few of them ever carry an impulse: only the
+/// required columns N S are formed. A side that is no weighted mean of nodes has a slot of its own after the nodes,
+/// whose part of N is set from outside. Symmetric. Grows, never shrinks.
 class PointCompliance
 {
 public:
@@ -36,11 +36,11 @@ public:
     /// Bodies of one cache must not request concurrently.
     void request(const ContactBody& body, const Threads* threads = nullptr);
 
-    /// Forms N for scale s and the slots' shares in rigid motion; zero for points with slots of their own.
+    /// Forms N for scale s and the slots' shares in rigid motion; N is zero for points with slots of their own.
     void form(const ContactBody& body, double scale, const std::vector<RigidMomentum::Share>& shares);
 
-    /// Multiplies the elastic part of N by a factor.
-    void scaleElastic(const ContactBody& body, double factor, const std::vector<RigidMomentum::Share>& shares);
+    /// Multiplies N by a factor.
+    void scaleElastic(double factor);
 
     int points() const { return static_cast<int>(m_first.size()) - 1; }
 
@@ -58,16 +58,25 @@ public:
     /// Entries of N that form() leaves out: set(i, j) sets (j, i) as well; indices are three times a slot plus an axis.
     void set(std::size_t i, std::size_t j, double value);
 
+    /// The rigid part of a point, and the number of components that it may belong to.
+    const RigidSide& rigid(int point) const { return m_rigid[point]; }
+    int components() const { return m_components; }
+
+    /// Adds rigid motions of the components to slot values.
+    void addRigid(const std::vector<RigidMotion>& motions, std::vector<double>& slotValues) const;
+
     /// Interpolation of slot values at a point.
     Vec3 read(int point, const std::vector<double>& slotValues) const;
 
-    /// Response of the slots to an impulse on a point, order() values each; its columns are formed at the first
-    /// request.
+    /// Elastic response of the slots to an impulse on a point, order() values each; its columns are formed at the
+    /// first request.
     Response response(int point, const Vec3& impulse) { return {columns(point), m_rows, impulse}; }
 
-    /// W_ef, the velocity of e for an impulse on f. The second function uses cached columns of f, for frequent use.
+    /// W_ef, the velocity of e for an impulse on f.
     Mat3 block(int e, int f) const;
-    Mat3 blockByColumns(int e, int f) { return readColumns(e, columns(f)); }
+
+    /// Its elastic part, from cached columns of f, for frequent use.
+    Mat3 elasticBlock(int e, int f) { return readColumns(e, columns(f)); }
 
 private:
     const float* columns(int point);
@@ -77,9 +86,7 @@ private:
     void turnNodes(const ContactBody& body);
     void formNodeColumns(const ContactBody& body, double scale);
     void addRestModes(const ContactBody& body, double scale, std::size_t slot);
-    void combine(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, double ofN, double ofRigid);
-    void combineColumns(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares, int component,
-                        double ofN, double ofRigid);
+    void setRigid(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares);
     void forgetColumns();
     void mirrorNodeColumns();
 
@@ -97,8 +104,10 @@ private:
     std::vector<int> m_columnsOf;    // per point: index in m_columns, or -1
     std::vector<float> m_columns;    // columns of N S, with room for all points
     int m_columnsFormed = 0;
-    std::vector<const float*> m_terms;  // arrays of one sum
-    std::vector<float> m_rigid;         // shares of all slots in the six momenta of a component, momentum by momentum
+    std::vector<const float*> m_terms;     // arrays of one sum
+    std::vector<RigidSide> m_rigidOfSlot;  // rigid parts of the slots
+    std::vector<RigidSide> m_rigid;        // and of the points
+    int m_components = 0;
 };
 
 }  // namespace bullet_fem

@@ -67,6 +67,7 @@ void ProjectedGaussSeidel::restart()
 {
     m_lifeOfSet = -1;
     m_looked = m_hasSwept = false;
+    m_newton.restart();
 }
 
 // Most candidate points never carry an impulse: some sweeps skip them. The working set has the rows with an impulse,
@@ -143,7 +144,7 @@ bool ProjectedGaussSeidel::sweep(double tolerance)
         sweepAll();
     }
     if (mixes) m_mixing.note(m_working);
-    if (m_lastChange > tolerance && !m_rows.isRunaway(m_lastSpeed) && m_newton.step(m_working, m_lastChange))
+    if (m_lastChange > tolerance && !m_rows.isRunaway(m_lastSpeed) && m_newton.step(m_working, m_lastChange, tolerance))
         m_mixing.start(m_working);
     return m_lastChange > tolerance || !restIsDone(tolerance);
 }

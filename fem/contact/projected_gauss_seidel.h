@@ -36,7 +36,11 @@ public:
     void noteLooked() { m_looked = true; }
 
     /// Call after rows of others have changed the rigid proxies' velocities.
-    void othersMoved() { m_looked = false; }
+    void othersMoved()
+    {
+        m_looked = false;
+        m_newton.restart();
+    }
 
     /// See ContactSweeps.
     bool sweep(double tolerance);

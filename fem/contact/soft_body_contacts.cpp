@@ -44,7 +44,7 @@ void SoftBodyContacts::clear(const ContactBody& body, const StepSettings& settin
     if (m_theta < 1) m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;
     m_firstJoint = std::numeric_limits<int>::max();
-    m_working.reset(0);
+    m_working.reset(0, 0);
 }
 
 void SoftBodyContacts::setPoint(int e, const SurfacePoint& point, const Vec3& at)
@@ -112,7 +112,8 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
         m_before.assign(m_ends.size(), Vec3());
         return;
     }
-    m_working.reset(size());
+    m_working.reset(size(), m_body.m_body->m_model->mesh().componentCount());
+    m_motions.assign(m_working.components(), RigidMotion());
     m_responses.reserve(m_ends.size());
     m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
@@ -169,7 +170,7 @@ void SoftBodyContacts::formGroup(int e)
         unit[static_cast<int>(c)] = 1;
         std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
         scatter(m_ends[e], unit, m_nodeIn);
-        P.apply(m_nodeIn, m_nodeOut);
+        P.applyElastic(m_nodeIn, m_nodeOut);
         const auto set = [&](std::size_t slot, const Vec3& w)
         {
             for (std::size_t i = 0; i < 3; ++i)
@@ -203,6 +204,12 @@ Mat3 SoftBodyContacts::compliance(int e, int f) const
     if (m_dense && e == f) return m_own[e];
     if (std::min(e, f) >= m_firstPoint) return m_points.block(e - m_firstPoint, f - m_firstPoint);
     return e == f ? m_meanDiagonal : Mat3();
+}
+
+double SoftBodyContacts::elasticCompliance(int e) const
+{
+    const Mat3 elastic = m_own[e] - m_points.rigid(e).block(m_points.rigid(e));
+    return (elastic(0, 0) + elastic(1, 1) + elastic(2, 2)) / 3;
 }
 
 int SoftBodyContacts::nodeOf(int e) const
@@ -254,6 +261,8 @@ void SoftBodyContacts::refresh()
         for (int e : m_working.ends()) see(e);
     if (m_responses.empty() && !m_pushedAtRest) return;
     addResponses(m_responses.data(), m_responses.size(), m_points.order(), m_slotVelocity.data());
+    m_points.addRigid(m_motions, m_slotVelocity);
+    std::fill(m_motions.begin(), m_motions.end(), RigidMotion());
     if (m_pushedAtRest) m_working.load(m_points, m_slotVelocity);
     m_pushedAtRest = false;
 }
@@ -261,7 +270,12 @@ void SoftBodyContacts::refresh()
 void SoftBodyContacts::see(int e)
 {
     const Vec3 unseen = m_impulse[e] - m_seen[e];
-    if (dot(unseen, unseen) > 0) m_responses.push_back(m_points.response(e, unseen));
+    if (dot(unseen, unseen) > 0)
+    {
+        m_responses.push_back(m_points.response(e, unseen));
+        const RigidSide& rigid = m_points.rigid(e);
+        if (rigid.component() >= 0) m_motions[rigid.component()] += rigid.response(unseen);
+    }
     m_seen[e] = m_impulse[e];
 }
 

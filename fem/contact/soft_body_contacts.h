@@ -87,6 +87,9 @@ public:
     /// f.
     Mat3 compliance(int e, int f) const;
 
+    /// Mean of the elastic part of W_ee, for a dense body [1/kg].
+    double elasticCompliance(int e) const;
+
     /// Predicted velocity of a side [m/s]; for a dense body outside the working set that of the last refresh().
     Vec3 velocity(int e) const { return m_dense && m_working.has(e) ? m_working.velocity(e) : known(e); }
 
@@ -213,7 +216,8 @@ private:
     std::vector<Mat3> m_own;  // dense: W_ee
     // dense: a side outside the working set has an impulse that the set's velocities do not include
     bool m_pushedAtRest = false;
-    std::vector<Response> m_responses;           // responses of a refresh
+    std::vector<Response> m_responses;           // elastic responses of a refresh
+    std::vector<RigidMotion> m_motions;          // and the rigid ones, per component
     std::vector<Vec3> m_nodeIn, m_nodeOut;       // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee
     double m_scale = 1;                          // learnt scale of the elastic part of W

@@ -13,10 +13,15 @@ namespace
 constexpr int kMinInterval = 3;    // sweeps before the first step, and from one step to the next that pays
 constexpr int kMaxInterval = 256;  // at most, where steps do not pay
 constexpr double kPays = 0.4;      // share of the change that a sweep after a step that pays leaves at most
-constexpr int kMaxIterations = 24;
-// Rounding of W: impulses that cancel each other to this share of the energy of each alone solve nothing [-].
-constexpr double kMinCurvature = 1e-7;
-constexpr double kTolerance = 1e-3;  // of the squared residual in the preconditioner's norm [-]
+// More sweeps than a step costs: if they suffice at the present rate, as in most piles, there is no step.
+constexpr int kSweepsPerStep = 100;
+// Iterations of a step, each as expensive as a sweep: twice as many after a step that pays, half after another.
+constexpr int kFirstBudget = 24, kMinBudget = 12, kMaxBudget = 192;
+constexpr int kPasses = 6;  // solves of a step at most, each without the rows that the last one lets go
+// Rounding of W: share of the energy of each impulse alone, by elastic responses and by all, below which the energy of
+// a direction is rounding. Impulses of more contacts than a body has freedoms cancel each other up to that.
+constexpr double kRoundingOfElastic = 1e-7, kRounding = 1e-12;
+constexpr double kTolerance = 1e-5;  // of the squared residual in the preconditioner's norm [-]
 
 Vec3 inAxes(const ContactRow& row, const Vec3& v)
 {
@@ -41,21 +46,38 @@ void TruncatedNewton::begin()
     m_of.reserve(m_rows.rows().size());
     m_waited = 0;
     m_interval = kMinInterval;
+    m_budget = kFirstBudget;
     m_changeThen = 0;
 }
 
-bool TruncatedNewton::step(const std::vector<int>& working, double change)
+bool TruncatedNewton::isDue(double change, double tolerance)
 {
     if (m_changeThen > 0)
-        m_interval = change > kPays * m_changeThen ? std::min(2 * m_interval, kMaxInterval)
-                                                   : std::max(m_interval / 2, kMinInterval);
+    {
+        const bool pays = change <= kPays * m_changeThen;
+        m_interval = pays ? std::max(m_interval / 2, kMinInterval) : std::min(2 * m_interval, kMaxInterval);
+        m_budget = pays ? std::min(2 * m_budget, kMaxBudget) : std::max(m_budget / 2, kMinBudget);
+    }
     m_changeThen = 0;
-    if (++m_waited < m_interval) return false;
+    if (++m_waited == 1) m_changeFirst = change;
+    if (m_waited < m_interval) return false;
+    const double rate = std::pow(change / m_changeFirst, 1.0 / (m_waited - 1));
     m_waited = 0;
+    return !(rate < 1 && change * std::pow(rate, kSweepsPerStep) <= tolerance);
+}
+
+bool TruncatedNewton::step(const std::vector<int>& working, double change, double tolerance)
+{
+    if (!isDue(change, tolerance)) return false;
     m_changeThen = change;
+    m_left = m_budget;
     findFree(working);
-    solve(working);
-    project(working);
+    for (int pass = 0; pass < kPasses; ++pass)
+    {
+        solve(working);
+        if (!project(working)) break;
+        measure(working);
+    }
     search(working);
     return true;
 }
@@ -75,6 +97,8 @@ void TruncatedNewton::findFree(const std::vector<int>& working)
         of.m_start = inAxes(row, row.m_impulse);
         of.m_velocity = velocity(row);
         if (row.m_joint || row.m_torsion || row.m_idle || !(of.m_start.x > 0)) continue;
+        of.m_moves = true;
+        of.m_elastic = m_rows.elasticCompliance(row);
         of.m_free = sticks(row) ? 2 : 1;
         Vec3 missing = row.m_target - of.m_velocity;
         missing.x -= row.m_yield.x * of.m_start.x;
@@ -90,9 +114,8 @@ double TruncatedNewton::precondition(const std::vector<int>& working)
     {
         const ContactRow& row = m_rows.rows()[working[k]];
         Row& of = m_of[k];
-        if (of.m_free == 0) continue;
         const Vec3& w = row.m_rowCompliance;
-        of.m_z = {of.m_r.x / (w.x + row.m_yield.x), of.m_r.y / w.y, of.m_r.z / w.z};
+        of.m_z = freePart({of.m_r.x / (w.x + row.m_yield.x), of.m_r.y / w.y, of.m_r.z / w.z}, of.m_free);
         sum += dot(of.m_r, of.m_z);
     }
     return sum;
@@ -104,7 +127,7 @@ void TruncatedNewton::move(const std::vector<int>& working, double ofX, double o
     for (std::size_t k = 0; k < working.size(); ++k)
     {
         const Row& of = m_of[k];
-        if (of.m_free == 0) continue;
+        if (!of.m_moves) continue;
         ContactRow& row = m_rows.rows()[working[k]];
         m_rows.change(row, inWorld(row, of.m_start + ofX * of.m_x + ofD * of.m_d));
     }
@@ -117,7 +140,7 @@ void TruncatedNewton::multiply(const std::vector<int>& working)
     for (std::size_t k = 0; k < working.size(); ++k)
     {
         Row& of = m_of[k];
-        if (of.m_free == 0) continue;
+        if (!of.m_moves) continue;
         const ContactRow& row = m_rows.rows()[working[k]];
         of.m_Wd = velocity(row) - of.m_velocity - of.m_Wx;
     }
@@ -128,7 +151,7 @@ void TruncatedNewton::solve(const std::vector<int>& working)
     double rz = precondition(working);
     const double enough = kTolerance * rz;
     for (Row& of : m_of) of.m_d = of.m_z;
-    for (int i = 0; i < kMaxIterations && rz > enough; ++i)
+    for (; m_left > 0 && rz > enough; --m_left)
     {
         multiply(working);
         const auto product = [&](std::size_t k) -> Vec3
@@ -137,14 +160,15 @@ void TruncatedNewton::solve(const std::vector<int>& working)
             w.x += m_rows.rows()[working[k]].m_yield.x * m_of[k].m_d.x;
             return freePart(w, m_of[k].m_free);
         };
-        double dWd = 0, alone = 0;
+        double dWd = 0, rounding = 0;
         for (std::size_t k = 0; k < m_of.size(); ++k)
         {
+            dWd += dot(m_of[k].m_d, product(k));
             const Vec3 &d = m_of[k].m_d, &w = m_rows.rows()[working[k]].m_rowCompliance;
-            dWd += dot(d, product(k));
-            alone += w.x * d.x * d.x + w.y * d.y * d.y + w.z * d.z * d.z;
+            rounding += kRoundingOfElastic * m_of[k].m_elastic * dot(d, d);
+            rounding += kRounding * (w.x * d.x * d.x + w.y * d.y * d.y + w.z * d.z * d.z);
         }
-        if (!(dWd > kMinCurvature * alone)) return;
+        if (!(dWd > rounding)) return;
         const double length = rz / dWd;
         for (std::size_t k = 0; k < m_of.size(); ++k)
         {
@@ -158,20 +182,48 @@ void TruncatedNewton::solve(const std::vector<int>& working)
     }
 }
 
-// x = Proj(start + x) - start.
-void TruncatedNewton::project(const std::vector<int>& working)
+// x = Proj(start + x) - start. True if rows let go or slide, which are held there; the others must take over what they
+// bore: on a stiff body, impulses with a resultant would undo the step.
+bool TruncatedNewton::project(const std::vector<int>& working)
 {
+    bool any = false;
     for (std::size_t k = 0; k < working.size(); ++k)
     {
         Row& of = m_of[k];
-        if (of.m_free == 0) continue;
+        if (!of.m_moves) continue;
         Vec3 to = of.m_start + of.m_x;
         const double most = m_rows.rows()[working[k]].m_friction * to.x, length = std::hypot(to.y, to.z);
+        const int before = of.m_free;
         if (!(to.x > 0))
+        {
             to = {};
+            of.m_free = 0;
+        }
         else if (length > most)
+        {
             to = {to.x, to.y * most / length, to.z * most / length};
+            of.m_free = std::min(of.m_free, 1);
+        }
+        any = any || of.m_free < before;
         of.m_x = to - of.m_start;
+    }
+    return any;
+}
+
+// The residual at start + x.
+void TruncatedNewton::measure(const std::vector<int>& working)
+{
+    move(working, 1, 0);
+    for (std::size_t k = 0; k < working.size(); ++k)
+    {
+        Row& of = m_of[k];
+        if (!of.m_moves) continue;
+        const ContactRow& row = m_rows.rows()[working[k]];
+        const Vec3 v = velocity(row);
+        of.m_Wx = v - of.m_velocity;
+        Vec3 missing = row.m_target - v;
+        missing.x -= row.m_yield.x * (of.m_start.x + of.m_x.x);
+        of.m_r = freePart(missing, of.m_free);
     }
 }
 
@@ -183,7 +235,7 @@ void TruncatedNewton::search(const std::vector<int>& working)
     for (std::size_t k = 0; k < working.size(); ++k)
     {
         const Row& of = m_of[k];
-        if (of.m_free == 0) continue;
+        if (!of.m_moves) continue;
         const ContactRow& row = m_rows.rows()[working[k]];
         slope += dot(of.m_residual, of.m_x);
         curvature += dot(of.m_x, velocity(row) - of.m_velocity) + row.m_yield.x * of.m_x.x * of.m_x.x;

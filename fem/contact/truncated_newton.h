@@ -23,33 +23,44 @@ public:
     /// Call when the rows are assembled anew.
     void begin();
 
-    /// Call after every sweep over these rows with its change [-]. True if a step was due, and changed impulses and
-    /// velocities.
-    bool step(const std::vector<int>& working, double change);
+    /// Call if rows of others, or corrective solves, have changed velocities: the changes of earlier sweeps tell
+    /// nothing about those to come.
+    void restart() { m_waited = 0; }
+
+    /// Call after every sweep over these rows with its change and the one at which sweeps end [-]. True if a step was
+    /// due, and changed impulses and velocities.
+    bool step(const std::vector<int>& working, double change, double tolerance);
 
 private:
     struct Row  // in the row's axes
     {
+        bool m_moves = false;                  // its impulse may change
         int m_free = 0;                        // 0: held, 1: the normal is free, 2: all axes are
         Vec3 m_start, m_velocity, m_residual;  // impulse, velocity and residual before the step
         Vec3 m_x, m_r, m_z, m_d;               // solution, residual, preconditioned residual, direction
+        double m_elastic = 0;                  // elastic compliance of its sides alone [1/kg]
         Vec3 m_Wx, m_Wd;                       // products with compliance and yield
     };
 
+    bool isDue(double change, double tolerance);
     void findFree(const std::vector<int>& working);
     void solve(const std::vector<int>& working);
     double precondition(const std::vector<int>& working);
     void multiply(const std::vector<int>& working);
-    void project(const std::vector<int>& working);
+    bool project(const std::vector<int>& working);
+    void measure(const std::vector<int>& working);
     void search(const std::vector<int>& working);
     void move(const std::vector<int>& working, double ofX, double ofD);
     Vec3 velocity(const ContactRow& row) const;
 
     ContactRows& m_rows;
-    std::vector<Row> m_of;    // per working row
-    int m_waited = 0;         // sweeps since the last step
-    int m_interval = 0;       // sweeps from one step to the next
-    double m_changeThen = 0;  // change before the last step, which the next sweep judges; 0: judged
+    std::vector<Row> m_of;     // per working row
+    int m_waited = 0;          // sweeps since the last step
+    int m_interval = 0;        // sweeps from one step to the next
+    int m_budget = 0;          // iterations of a step
+    int m_left = 0;            // of this step
+    double m_changeFirst = 0;  // change by the first sweep of the interval
+    double m_changeThen = 0;   // change before the last step, which the next sweep judges; 0: judged
 };
 
 }  // namespace bullet_fem

@@ -13,9 +13,12 @@ constexpr double kMaxLeft = 0.25;  // share of sides that may have left before t
 
 }  // namespace
 
-void WorkingSet::reset(int ends)
+void WorkingSet::reset(int ends, int components)
 {
     m_ends.clear();
+    m_rigid.clear();
+    m_rigid.reserve(ends);
+    m_motion.assign(components, RigidMotion());
     m_wanted.clear();
     m_packed = 0;
     m_place.assign(ends, -1);
@@ -25,8 +28,8 @@ void WorkingSet::reset(int ends)
     m_velocity.assign(most, 0);
     m_ends.reserve(ends);
     m_wanted.reserve(ends);
-    m_swept.reserve(most);
-    for (std::vector<double>& delta : m_sweptDelta) delta.reserve(most);
+    m_swept.reserve(most + 6 * m_motion.size());
+    for (std::vector<double>& delta : m_sweptDelta) delta.reserve(most + 6 * m_motion.size());
 }
 
 void WorkingSet::choose()
@@ -58,10 +61,13 @@ void WorkingSet::pack(PointCompliance& points, const std::vector<double>& slotVe
     for (; m_packed < m_ends.size(); ++m_packed)
     {
         const int f = m_ends[m_packed];
-        put(points.read(f, slotVelocity), m_velocity, m_packed);
+        m_rigid.resize(m_packed);
+        m_rigid.push_back(points.rigid(f));
+        put(Vec3(), m_velocity, m_packed);
+        put(points.read(f, slotVelocity) - velocity(f), m_velocity, m_packed);
         for (std::size_t k = 0; k <= m_packed; ++k)
         {
-            const Mat3 w = points.blockByColumns(m_ends[k], f);
+            const Mat3 w = points.elasticBlock(m_ends[k], f);
             float *column = block(k, m_packed), *mirrored = block(m_packed, k);
             for (int c = 0; c < 3; ++c)
                 for (int i = 0; i < 3; ++i)
@@ -99,6 +105,7 @@ void WorkingSet::dropThoseThatLeft()
         if (f < m_packed)
         {
             put(at(m_velocity, static_cast<int>(f)), m_velocity, kept);
+            m_rigid[kept] = m_rigid[f];
             for (int c = 0; c < 3; ++c)
             {
                 const float* from = &m_W[(3 * f + c) * m_stride];
@@ -122,23 +129,31 @@ void WorkingSet::dropThoseThatLeft()
 
 void WorkingSet::load(const PointCompliance& points, const std::vector<double>& slotVelocity)
 {
+    std::fill(m_motion.begin(), m_motion.end(), RigidMotion());
     for (std::size_t k = 0; k < m_ends.size(); ++k) put(points.read(m_ends[k], slotVelocity), m_velocity, k);
 }
 
 void WorkingSet::noteSweep(int slot, bool first)
 {
-    const std::size_t size = 3 * m_ends.size();
+    const std::size_t size = 3 * m_ends.size() + 6 * m_motion.size();
     if (first)
         for (std::vector<double>& delta : m_sweptDelta) delta.assign(size, 0.0);
-    else
-        for (std::size_t i = 0; i < size; ++i) m_sweptDelta[slot][i] = m_velocity[i] - m_swept[i];
-    m_swept.assign(m_velocity.begin(), m_velocity.begin() + static_cast<std::ptrdiff_t>(size));
+    m_swept.resize(size);
+    forEachValue(
+        [&](double value, std::size_t k)
+        {
+            if (!first) m_sweptDelta[slot][k] = value - m_swept[k];
+            m_swept[k] = value;
+        });
 }
 
 void WorkingSet::mixSweeps(const std::array<double, kMixed>& shares)
 {
-    for (int j = 0; j < kMixed; ++j)
-        for (std::size_t i = 0; i < m_swept.size(); ++i) m_velocity[i] -= shares[j] * m_sweptDelta[j][i];
+    forEachValue(
+        [&](double& value, std::size_t k)
+        {
+            for (int j = 0; j < kMixed; ++j) value -= shares[j] * m_sweptDelta[j][k];
+        });
 }
 
 }  // namespace bullet_fem

@@ -17,8 +17,8 @@ namespace bullet_fem
 class WorkingSet
 {
 public:
-    /// Removes all sides, for a body with this many. The compliance may have changed.
-    void reset(int ends);
+    /// Removes all sides, for a body with this many, and this many components. The compliance may have changed.
+    void reset(int ends, int components);
 
     /// Begins another choice of sides: add() each, repetitions allowed, then pack(), with the slot values of the
     /// compliance.
@@ -34,19 +34,31 @@ public:
     const std::vector<int>& ends() const { return m_ends; }
 
     /// Velocity of a side of the set [m/s].
-    Vec3 velocity(int e) const { return at(m_velocity, m_place[e]); }
+    Vec3 velocity(int e) const { return read(e, m_velocity, m_motion); }
 
     /// Adds an impulse to a side of the set; the velocities follow.
     void push(int e, const Vec3& impulse)
     {
         const Response response = respond(m_place[e], impulse);
         addResponses(&response, 1, order(), m_velocity.data());
+        pushRigid(e, impulse, m_motion);
     }
 
-    /// Response of all sides of the set to an impulse on one, order() values; and interpolation of such values at a
-    /// side.
+    /// Elastic response of all sides of the set to an impulse on one, order() values, and the rigid one of its
+    /// component; velocity of a side with such values and motions.
     Response response(int e, const Vec3& impulse) const { return respond(m_place[e], impulse); }
-    Vec3 read(int e, const std::vector<double>& values) const { return at(values, m_place[e]); }
+    void pushRigid(int e, const Vec3& impulse, std::vector<RigidMotion>& motions) const
+    {
+        const RigidSide& rigid = m_rigid[m_place[e]];
+        if (rigid.component() >= 0) motions[rigid.component()] += rigid.response(impulse);
+    }
+    Vec3 read(int e, const std::vector<double>& values, const std::vector<RigidMotion>& motions) const
+    {
+        const RigidSide& rigid = m_rigid[m_place[e]];
+        const Vec3 elastic = at(values, m_place[e]);
+        return rigid.component() >= 0 ? elastic + rigid.velocity(motions[rigid.component()]) : elastic;
+    }
+    std::size_t components() const { return m_motion.size(); }
     std::size_t order() const { return padded(3 * m_ends.size(), kResponsePadding); }
 
     /// For AndersonAcceleration: the velocities after the last sweep, and their differences from those of earlier
@@ -63,6 +75,17 @@ private:
         return {v[0], v[1], v[2]};
     }
     static void put(const Vec3& v, std::vector<double>& values, std::size_t place);
+
+    // Calls visit(value, k) for all velocities and motions.
+    template <class Visit>
+    void forEachValue(const Visit& visit)
+    {
+        std::size_t k = 0;
+        for (; k < 3 * m_ends.size(); ++k) visit(m_velocity[k], k);
+        for (RigidMotion& motion : m_motion)
+            for (Vec3* part : {&motion.m_linear, &motion.m_angular})
+                for (int i = 0; i < 3; ++i) visit((*part)[i], k++);
+    }
     float* block(std::size_t e, std::size_t f) { return &m_W[3 * f * m_stride + 3 * e]; }
     Response respond(std::size_t place, const Vec3& impulse) const
     {
@@ -78,8 +101,11 @@ private:
     std::size_t m_packed = 0;             // number of sides in m_W
     std::size_t m_stride = 0;             // stride of its columns
     std::vector<float> m_W;               // three columns per side, with room for all sides of the body
-    std::vector<double> m_velocity;       // three per side of the set, padded
-    std::vector<double> m_swept;          // velocities after the last sweep, three per side of the set, padded
+    std::vector<RigidSide> m_rigid;       // per side of the set
+    std::vector<double> m_velocity;       // beyond the motion, three per side of the set, padded
+    std::vector<RigidMotion> m_motion;    // by the impulses since load(), per component
+    // velocities and motions after the last sweep, three per side of the set and six per component
+    std::vector<double> m_swept;
     std::array<std::vector<double>, kMixed> m_sweptDelta;
 };
 

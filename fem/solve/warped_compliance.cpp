@@ -12,16 +12,20 @@ namespace bullet_fem
 
 void WarpedCompliance::apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
-    const RigidMomentum& rigid = m_body.m_workspace.scratch().m_momentum;
-    std::vector<Vec3>& elastic = m_body.m_workspace.scratch().m_rightSide;
-    for (std::size_t i = 0; i < in.size(); ++i) elastic[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
-    rigid.removeImpulses(m_body, elastic);
-    applyElastic(elastic, out);
-    for (Vec3& v : out) v *= m_scale;
-    rigid.addResponse(m_body, in, out);
+    applyElastic(in, out);
+    m_body.m_workspace.scratch().m_momentum.addResponse(m_body, in, out);
 }
 
 void WarpedCompliance::applyElastic(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
+{
+    std::vector<Vec3>& elastic = m_body.m_workspace.scratch().m_rightSide;
+    for (std::size_t i = 0; i < in.size(); ++i) elastic[i] = m_body.m_state.m_fixed[i] ? Vec3() : in[i];
+    m_body.m_workspace.scratch().m_momentum.removeImpulses(m_body, elastic);
+    solve(elastic, out);
+    for (Vec3& v : out) v *= m_scale;
+}
+
+void WarpedCompliance::solve(const std::vector<Vec3>& in, std::vector<Vec3>& out) const
 {
     const WarpedPreconditioner P(m_body, m_threads);
     if (m_body.m_model->factorReport().m_path == FactorPath::full) return P.apply(in, out);

@@ -22,8 +22,11 @@ public:
     }
     void apply(const std::vector<Vec3>& in, std::vector<Vec3>& out) const override;
 
-private:
+    /// Without the rigid response.
     void applyElastic(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
+private:
+    void solve(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
     Body& m_body;
     double m_scale;  // of the elastic response [-]

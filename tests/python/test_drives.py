@@ -11,7 +11,8 @@ from conftest import G, bottom_nodes, cube_mesh, top_nodes
 def test_anchors_hang_a_body_on_a_rigid_one(world):
     bar = world.add_rigid_body(bf.Shape.box((0.5, 0.1, 0.5)), position=(0, 0.5, 0))
     body = world.add_soft_body(cube_mesh(), bf.Material.rubber())
-    body.anchor(top_nodes(body), bar)
+    held = top_nodes(body)
+    body.anchor(held, bar)
     world.step(200)
     weight = body.mass * G
     force, moment, count = body.anchor_reaction(bar)
@@ -20,7 +21,7 @@ def test_anchors_hang_a_body_on_a_rigid_one(world):
     rows = body.holds
     assert set(rows["kind"]) == {0} and set(rows["other"]) == {bar.index}
     assert np.allclose(rows["impulse"].sum(axis=0) / world.step_size, force, atol=1e-9)
-    body.unanchor(top_nodes(body)[:4])
+    body.unanchor(held[:4])
     world.step()
     assert len(body.holds) == 5
     body.unanchor()

@@ -144,13 +144,13 @@ TEST_F(PointComplianceTest, MatchesTheRotatedFactorBetweenPoints)
     for (int repeat = 0; repeat < 2; ++repeat)  // results of the last call are overwritten
     {
         form(W, points, 1);
-        W.scaleElastic({&m_body, m_cache.get()}, kScale, sharesOf(W));
+        W.scaleElastic(kScale);
     }
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     ASSERT_GT(size, 0);
     for (int f = 0; f < 5; ++f)
         for (int e = 0; e < 5; ++e)
-            for (const Mat3& w : {W.block(f, e), W.blockByColumns(f, e)})
+            for (const Mat3& w : {W.block(f, e), W.elasticBlock(f, e)})
                 for (int c = 0; c < 3; ++c)
                 {
                     const Vec3 column = {w(0, c), w(1, c), w(2, c)};
@@ -178,6 +178,53 @@ TEST_F(PointComplianceTest, ReadsAndMovesSlotsAsThePointsDo)
     EXPECT_GT(norm(W.read(0, velocity)), 0);
 }
 
+// A free body's points move with 1 / m + r x I^-1 r', without the rounding of single precision.
+TEST(PointCompliance, MovesPointsOfAFreeBodyRigidly)
+{
+    Body body(makeBody(makeBox({2, 1, 1}, {4, 2, 2}), elasticMaterial(1e5, 0.3)));
+    for (Vec3& x : body.m_state.m_x) x = {x.x, x.y + 0.2 * x.x * x.x, x.z - 0.1 * x.x * x.y};
+    solveFreeMotion(body, StepSettings());
+    const std::shared_ptr<ComplianceCache> cache = makeComplianceCache(body.m_model);
+    SurfacePoint edge;
+    edge.m_body = 0;
+    edge.m_count = 2;
+    edge.m_nodes = {body.m_model->mesh().surfaceNodes()[0], body.m_model->mesh().surfaceNodes()[9]};
+    edge.m_weights = {0.25, 0.75};
+    PointCompliance W;
+    W.clear(body.m_state.m_x.size());
+    W.add(edge);
+    W.numberSlots();
+    W.request({&body, cache.get()});
+    const RigidMomentum& momentum = body.m_workspace.scratch().m_momentum;
+    const Mat3 whole = Mat3::identity();
+    std::vector<RigidMomentum::Share> shares;
+    for (int node : W.nodes()) shares.push_back(momentum.shareOf(body, &node, &whole, 1));
+    W.form({&body, cache.get()}, 1, shares);
+
+    const std::vector<Vec3>& x = body.m_workspace.scratch().m_kickPosition;
+    double mass = 0;
+    Vec3 center;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+        mass += body.m_state.m_mass[i];
+        center += body.m_state.m_mass[i] * x[i];
+    }
+    center = (1 / mass) * center;
+    Mat3 inertia;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        inertia += body.m_state.m_mass[i] * transposeTimes(crossMatrix(x[i] - center), crossMatrix(x[i] - center));
+    const Mat3 r = crossMatrix(edge.of(x) - center);
+    const Mat3 expected = (1 / mass) * whole + transposeTimes(r, inverse(inertia) * r);
+    const Mat3 rigid = W.rigid(0).block(W.rigid(0));
+    EXPECT_LE(std::sqrt(squaredNorm(rigid - expected)), 1e-12 * std::sqrt(squaredNorm(expected)));
+    EXPECT_LE(std::sqrt(squaredNorm(W.block(0, 0) - rigid - W.elasticBlock(0, 0))), 1e-6);
+    EXPECT_GT(std::sqrt(squaredNorm(W.elasticBlock(0, 0))), 0);
+    std::vector<double> velocity(W.order());
+    const Vec3 impulse = {1, -2, 3};
+    W.addRigid({W.rigid(0).response(impulse)}, velocity);
+    EXPECT_LE(norm(W.read(0, velocity) - expected * impulse), 1e-12 * norm(expected * impulse));
+}
+
 TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
 {
     PointCompliance W;
@@ -189,7 +236,7 @@ TEST_F(PointComplianceTest, IsSymmetricHoweverManyPoints)
     const double size = std::sqrt(squaredNorm(W.block(0, 0)));
     for (int f = 0; f < count; ++f)
         for (int e = 0; e < f; ++e)
-            EXPECT_LE(std::sqrt(squaredNorm(W.blockByColumns(f, e) - transpose(W.blockByColumns(e, f)))), 5e-7 * size)
+            EXPECT_LE(std::sqrt(squaredNorm(W.elasticBlock(f, e) - transpose(W.elasticBlock(e, f)))), 5e-7 * size)
                 << f << " " << e;
 }
 

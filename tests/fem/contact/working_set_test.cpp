@@ -7,6 +7,7 @@
 #include "fem/common/vector_targets.h"
 
 #include <hwy/highway.h>
+#include <functional>
 #include <random>
 #include <set>
 
@@ -59,7 +60,7 @@ TEST(ResponseKernel, MatchesItsReferenceOnEveryInstructionSet)
     EXPECT_GE(compared, 160);
 }
 
-/// Points with slots of their own and a random compliance between them.
+/// Points with slots of their own, a random compliance between them and random shares in the rigid motion.
 class RandomPoints
 {
 public:
@@ -69,7 +70,15 @@ public:
         m_points.clear(m_scene.m_body.m_state.m_x.size());
         for (int k = 0; k < points; ++k) m_points.addOwn();
         m_points.numberSlots();
-        m_points.form(body, 1, {});
+        solveFreeMotion(m_scene.m_body, StepSettings());
+        std::vector<RigidMomentum::Share> shares(points);
+        for (RigidMomentum::Share& share : shares)
+        {
+            share.m_component = 0;
+            for (Mat3* part : {&share.m_linear, &share.m_angular})
+                for (auto& row : part->m) std::generate_n(row, 3, std::ref(random));
+        }
+        m_points.form(body, 1, shares);
         for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(points); ++i)
             for (std::size_t j = 0; j <= i; ++j) m_points.set(i, j, random());
     }
@@ -91,9 +100,11 @@ TEST(WorkingSet, MovesAsTheWholeWouldUnderImpulsesOnIt)
     {
         const Response response = W.response(e, impulse);
         addResponses(&response, 1, W.order(), velocity.data());
+        W.addRigid({W.rigid(e).response(impulse)}, velocity);
     };
+    ASSERT_EQ(W.rigid(0).component(), 0);
     WorkingSet set;
-    set.reset(kEnds);
+    set.reset(kEnds, W.components());
     const std::vector<std::vector<int>> choices = {{7, 2, 9, 2, 1, 0, 8},
                                                    {2, 7, 10, 9, 8, 1, 4},
                                                    {10, 4},

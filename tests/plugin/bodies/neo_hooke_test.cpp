@@ -46,11 +46,14 @@ TEST_P(NeoHookeInWorlds, ACrushedCubeComesBack)
         addRigidBox(world, {2, 2, 2 * kPlateHalf}, {0, at(0, 0, btScalar(kEdgeOfCrushed + kPlateHalf))});
     plate.setCollisionFlags(plate.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     plate.setActivationState(DISABLE_DEACTIVATION);
+    const btScalar friction = cube.m_cfg.kDF;
+    cube.m_cfg.kDF = 0;  // otherwise friction holds the base strained, now and at the end
     world.step(60);
     const std::vector<Vec3> rest = edgesOf(cube);
     double lowest = 1, most = 0;
     for (int k = 1; k <= 600; ++k)  // two seconds down, one at rest, two up, and five to settle
     {
+        cube.m_cfg.kDF = k < 480 ? friction : 0;
         const double way = std::clamp(std::min(k / 120.0, (300 - k) / 120.0), 0.0, 1.0);
         const double height = kEdgeOfCrushed + (kTenth - kEdgeOfCrushed) * way;
         plate.getMotionState()->setWorldTransform(at(0, 0, btScalar(height + kPlateHalf)));
@@ -65,7 +68,7 @@ TEST_P(NeoHookeInWorlds, ACrushedCubeComesBack)
     EXPECT_LT(most, 5);  // the plate moves at .23 m/s
     EXPECT_LT(fastestNode(cube), 0.01);
     const std::vector<Vec3> after = edgesOf(cube);
-    for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_NEAR(norm(after[i]), norm(rest[i]), 0.012 * kEdgeOfCrushed);
+    for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_NEAR(norm(after[i]), norm(rest[i]), 0.001 * kEdgeOfCrushed);
 }
 
 // The cube's contact force on the floor is its weight, plus that of a rigid body on it.
