@@ -276,7 +276,7 @@ TEST_P(Picking, LimitedSpringSurvivesAJumpingTarget)
         ASSERT_LE(m_fem.anchors(&m_body)[0].m_impulse.length(), 1.0001 * double(spring.m_maxForce * kStep));
         ASSERT_LT(fastestNode(m_body), 60);
     }
-    EXPECT_LT(norm(centerOf(m_body)), 3.5);
+    EXPECT_LT(norm(centerOf(m_body)), 4);  // overshooting targets at 1 m
 }
 
 // A body on the floor is pulled sideways.
