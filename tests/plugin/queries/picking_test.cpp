@@ -269,14 +269,16 @@ TEST_P(Picking, LimitedSpringSurvivesAJumpingTarget)
     spring.m_stiffness = btScalar(1e8);
     spring.m_maxForce = btScalar(10 * kMass * kGravity);
     const int handle = m_fem.addSpring(&m_body, spring);
+    double away = 0;  // mean: a millionth of the force moves the last place by a metre
     for (int k = 0; k < 300; ++k)
     {
         m_fem.setSpringTarget(&m_body, handle, btVector3(0, 0, k / 30 % 2 ? btScalar(-1) : btScalar(1)));
         m_world.step();
+        away += norm(centerOf(m_body)) / 300;
         ASSERT_LE(m_fem.anchors(&m_body)[0].m_impulse.length(), 1.0001 * double(spring.m_maxForce * kStep));
         ASSERT_LT(fastestNode(m_body), 60);
     }
-    EXPECT_LT(norm(centerOf(m_body)), 4);  // overshooting targets at 1 m
+    EXPECT_LT(away, 3);
 }
 
 // A body on the floor is pulled sideways.
