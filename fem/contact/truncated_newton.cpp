@@ -39,6 +39,14 @@ Vec3 freePart(const Vec3& v, int free)
     return {free > 0 ? v.x : 0, free > 1 ? v.y : 0, free > 1 ? v.z : 0};
 }
 
+// Velocity that the free components of a row lack with this impulse, all in its axes.
+Vec3 residual(const ContactRow& row, const Vec3& impulse, const Vec3& velocity, int free)
+{
+    Vec3 missing = row.m_target - velocity;
+    missing.x -= row.m_yield.x * impulse.x;
+    return freePart(missing, free);
+}
+
 }  // namespace
 
 void TruncatedNewton::begin()
@@ -100,9 +108,7 @@ void TruncatedNewton::findFree(const std::vector<int>& working)
         of.m_moves = true;
         of.m_elastic = m_rows.elasticCompliance(row);
         of.m_free = sticks(row) ? 2 : 1;
-        Vec3 missing = row.m_target - of.m_velocity;
-        missing.x -= row.m_yield.x * of.m_start.x;
-        of.m_residual = of.m_r = freePart(missing, of.m_free);
+        of.m_residual = of.m_r = residual(row, of.m_start, of.m_velocity, of.m_free);
     }
 }
 
@@ -124,26 +130,16 @@ double TruncatedNewton::precondition(const std::vector<int>& working)
 // The rows' impulses become start + ofX x + ofD d; the velocities follow.
 void TruncatedNewton::move(const std::vector<int>& working, double ofX, double ofD)
 {
-    for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        const Row& of = m_of[k];
-        if (!of.m_moves) continue;
-        ContactRow& row = m_rows.rows()[working[k]];
-        m_rows.change(row, inWorld(row, of.m_start + ofX * of.m_x + ofD * of.m_d));
-    }
+    forEachMoving(working, [&](const Row& of, ContactRow& row)
+                  { m_rows.change(row, inWorld(row, of.m_start + ofX * of.m_x + ofD * of.m_d)); });
 }
 
 // W d, from the velocities at start + x + d.
 void TruncatedNewton::multiply(const std::vector<int>& working)
 {
     move(working, 1, 1);
-    for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        Row& of = m_of[k];
-        if (!of.m_moves) continue;
-        const ContactRow& row = m_rows.rows()[working[k]];
-        of.m_Wd = velocity(row) - of.m_velocity - of.m_Wx;
-    }
+    forEachMoving(working,
+                  [this](Row& of, const ContactRow& row) { of.m_Wd = velocity(row) - of.m_velocity - of.m_Wx; });
 }
 
 void TruncatedNewton::solve(const std::vector<int>& working)
@@ -187,26 +183,25 @@ void TruncatedNewton::solve(const std::vector<int>& working)
 bool TruncatedNewton::project(const std::vector<int>& working)
 {
     bool any = false;
-    for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        Row& of = m_of[k];
-        if (!of.m_moves) continue;
-        Vec3 to = of.m_start + of.m_x;
-        const double most = m_rows.rows()[working[k]].m_friction * to.x, length = std::hypot(to.y, to.z);
-        const int before = of.m_free;
-        if (!(to.x > 0))
-        {
-            to = {};
-            of.m_free = 0;
-        }
-        else if (length > most)
-        {
-            to = {to.x, to.y * most / length, to.z * most / length};
-            of.m_free = std::min(of.m_free, 1);
-        }
-        any = any || of.m_free < before;
-        of.m_x = to - of.m_start;
-    }
+    forEachMoving(working,
+                  [&any](Row& of, const ContactRow& row)
+                  {
+                      Vec3 to = of.m_start + of.m_x;
+                      const double most = row.m_friction * to.x, length = std::hypot(to.y, to.z);
+                      const int before = of.m_free;
+                      if (!(to.x > 0))
+                      {
+                          to = {};
+                          of.m_free = 0;
+                      }
+                      else if (length > most)
+                      {
+                          to = {to.x, to.y * most / length, to.z * most / length};
+                          of.m_free = std::min(of.m_free, 1);
+                      }
+                      any = any || of.m_free < before;
+                      of.m_x = to - of.m_start;
+                  });
     return any;
 }
 
@@ -214,17 +209,13 @@ bool TruncatedNewton::project(const std::vector<int>& working)
 void TruncatedNewton::measure(const std::vector<int>& working)
 {
     move(working, 1, 0);
-    for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        Row& of = m_of[k];
-        if (!of.m_moves) continue;
-        const ContactRow& row = m_rows.rows()[working[k]];
-        const Vec3 v = velocity(row);
-        of.m_Wx = v - of.m_velocity;
-        Vec3 missing = row.m_target - v;
-        missing.x -= row.m_yield.x * (of.m_start.x + of.m_x.x);
-        of.m_r = freePart(missing, of.m_free);
-    }
+    forEachMoving(working,
+                  [this](Row& of, const ContactRow& row)
+                  {
+                      const Vec3 v = velocity(row);
+                      of.m_Wx = v - of.m_velocity;
+                      of.m_r = residual(row, of.m_start + of.m_x, v, of.m_free);
+                  });
 }
 
 // Minimizes the quadratic energy along x, within the cones.
@@ -232,14 +223,12 @@ void TruncatedNewton::search(const std::vector<int>& working)
 {
     move(working, 1, 0);
     double slope = 0, curvature = 0;
-    for (std::size_t k = 0; k < working.size(); ++k)
-    {
-        const Row& of = m_of[k];
-        if (!of.m_moves) continue;
-        const ContactRow& row = m_rows.rows()[working[k]];
-        slope += dot(of.m_residual, of.m_x);
-        curvature += dot(of.m_x, velocity(row) - of.m_velocity) + row.m_yield.x * of.m_x.x * of.m_x.x;
-    }
+    forEachMoving(working,
+                  [&](const Row& of, const ContactRow& row)
+                  {
+                      slope += dot(of.m_residual, of.m_x);
+                      curvature += dot(of.m_x, velocity(row) - of.m_velocity) + row.m_yield.x * of.m_x.x * of.m_x.x;
+                  });
     const double share = !(slope > 0) ? 0 : curvature > slope ? slope / curvature : 1;
     if (share < 1) move(working, share, 0);
 }

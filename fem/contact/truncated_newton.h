@@ -53,6 +53,14 @@ private:
     void move(const std::vector<int>& working, double ofX, double ofD);
     Vec3 velocity(const ContactRow& row) const;
 
+    // Calls visit(of, row) for the rows whose impulses may change.
+    template <class Visit>
+    void forEachMoving(const std::vector<int>& working, const Visit& visit)
+    {
+        for (std::size_t k = 0; k < working.size(); ++k)
+            if (m_of[k].m_moves) visit(m_of[k], m_rows.rows()[working[k]]);
+    }
+
     ContactRows& m_rows;
     std::vector<Row> m_of;     // per working row
     int m_waited = 0;          // sweeps since the last step
