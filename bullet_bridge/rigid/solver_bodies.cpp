@@ -16,12 +16,14 @@ void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>
     m_multiBodies = linkDeltas && !rigid.links().isEmpty() ? &rigid.links() : nullptr;
     if (m_multiBodies) m_multiBodies->beginSolve(*linkDeltas);
     m_links.assign(rigid.rigidProxies().size(), Link());
+    m_proxyOf.assign(pool.size(), -1);
     for (std::size_t k = 0; k < m_links.size(); ++k)
     {
         const btRigidBody* body = movableBody(rigid.object(static_cast<int>(k)));
         if (!body || body->getCompanionId() < 0 || body->getCompanionId() >= pool.size()) continue;
         const RigidHistory::Remainder& remainder = rigid.history().remainderOf(rigid.object(static_cast<int>(k)));
         m_links[k].m_solverBody = body->getCompanionId();
+        m_proxyOf[body->getCompanionId()] = static_cast<int>(k);
         m_links[k].m_linearRemainder = remainder.m_linear;
         m_links[k].m_angularRemainder = remainder.m_angular;
     }

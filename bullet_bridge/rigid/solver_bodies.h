@@ -23,6 +23,9 @@ public:
     void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
                btAlignedObjectArray<btScalar>* linkDeltas);
 
+    /// Per body of the pool: index of its rigid proxy; -1: it has none.
+    const std::vector<int>& proxyOf() const { return m_proxyOf; }
+
     /// Sets the rigid proxies' velocities to those of the solver bodies.
     void read(std::vector<RigidProxy>& rigidProxies);
 
@@ -43,6 +46,7 @@ private:
     btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
     ArticulatedBodies* m_multiBodies = nullptr;  // null: there are none
     std::vector<Link> m_links;
+    std::vector<int> m_proxyOf;
 };
 
 }  // namespace bullet_fem

@@ -183,12 +183,13 @@ void ContactRows::addJointRow(const Joint& joint, const int* points)
     for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
     row.m_target = joint.m_wanted;
     row.m_limit = joint.m_limit;
+    for (int i = 0; i < 3; ++i) row.m_lower[i] = std::max(-joint.m_limit[i], joint.m_lower[i]);
     row.m_maxImpulse = joint.m_maxImpulse;
     row.m_softness = joint.m_softness;
     row.m_spring = joint.m_compliance;
     for (int i = 0; i < 3 && isFinite(joint.m_impulse); ++i)
         row.m_impulse +=
-            std::clamp(dot(joint.m_impulse, row.m_axes[i]), -row.m_limit[i], row.m_limit[i]) * row.m_axes[i];
+            std::clamp(dot(joint.m_impulse, row.m_axes[i]), row.m_lower[i], row.m_limit[i]) * row.m_axes[i];
     m_rows.push_back(row);
 }
 
@@ -207,6 +208,7 @@ ConstraintSide ContactRows::jointEnd(const JointEnd& joint, int number)
     {
         ConstraintSide end = rigidEnd(joint.m_rigidProxy, joint.m_point);
         end.m_angular = joint.m_angular;
+        end.m_jacobian = joint.m_jacobian;
         return end;
     }
     if (number >= 0)

@@ -10,6 +10,15 @@ namespace bullet_fem
 namespace
 {
 
+// Scales a tangential impulse to the ellipse of anisotropic friction: its larger semi-axis is along the first tangent.
+Vec3 onEllipse(const ContactRow& row, const Vec3& tangential, double radius)
+{
+    const double first = dot(tangential, row.m_axes[1]), second = dot(tangential, row.m_axes[2]);
+    if (!(row.m_aspect > 0)) return std::clamp(first, -radius, radius) * row.m_axes[1];
+    const double length = std::hypot(first, second / row.m_aspect);
+    return length > radius ? (radius / length) * tangential : tangential;
+}
+
 Vec3 impulseOfContact(const ContactRow& row, const Vec3& impulse, Vec3 v, double step)
 {
     // Normal: n . v + yield lambda >= target.
@@ -27,7 +36,9 @@ Vec3 impulseOfContact(const ContactRow& row, const Vec3& impulse, Vec3 v, double
         tangential +=
             (dot(impulse, row.m_axes[i]) + step * (row.m_target[i] - dot(v, row.m_axes[i])) / row.m_rowCompliance[i]) *
             row.m_axes[i];
-    const double radius = row.m_friction * normal, length = norm(tangential);
+    const double radius = row.m_friction * normal;
+    if (row.m_aspect != 1) return normal * n + onEllipse(row, tangential, radius);
+    const double length = norm(tangential);
     if (length > radius) tangential *= length > 0 ? radius / length : 0;
     return normal * n + tangential;
 }
@@ -43,7 +54,7 @@ Vec3 impulseOfJoint(const ContactRow& row, const Vec3& impulse, Vec3 v, double s
         if (w > 0)
         {
             const double missing = row.m_target[i] - dot(axis, v) - yield * old;
-            wanted = std::clamp(old + step * missing / (w + yield), -row.m_limit[i], row.m_limit[i]);
+            wanted = std::clamp(old + step * missing / (w + yield), row.m_lower[i], row.m_limit[i]);
         }
         result += wanted * axis;
         if (step == 1) v += row.m_compliance * ((wanted - old) * axis);
@@ -57,7 +68,7 @@ Vec3 impulseOfJoint(const ContactRow& row, const Vec3& impulse, Vec3 v, double s
 // m_limit holds the coefficients.
 Vec3 impulseOfTorsion(const ContactRow& row, const Vec3& impulse, Vec3 v, double step)
 {
-    const double load = std::max(row.m_load, 0.0);
+    const double load = std::clamp(row.m_load, 0.0, row.m_maxLoad);
     Vec3 wanted;
     double beyond = 0;  // squared utilisation of rolling friction
     for (int i = 0; i < 3; ++i)

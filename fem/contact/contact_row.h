@@ -13,6 +13,7 @@ struct ConstraintSide
     int m_body = -1, m_end = -1;  ///< soft: index into the problem's bodies, and side index within the body
     int m_rigidProxy = -1;        ///< rigid: index into the problem's rigid proxies
     bool m_angular = false;       ///< rigid: its velocity is the angular one, and impulses are angular
+    int m_jacobian = -1;          ///< rigid: index into the problem's Jacobians, see JointEnd; -1: none
     Vec3 m_arm;                   ///< rigid: lever arm from the rigid proxy's centre [m]
 
     bool sharesOwner(const ConstraintSide& other) const
@@ -37,14 +38,17 @@ struct ContactRow
     Vec3 m_rowCompliance;   ///< compliance of every axis; a contact's tangents share the largest of their plane [1/kg]
     Vec3 m_yield;           ///< compliance added along the axes [1/kg]
     double m_friction = 0;  ///< Coulomb friction coefficient [-]
+    double m_aspect = 1;    ///< that along the second tangent over that along the first
     Mat3 m_compliance;      ///< response of the relative velocity to the impulse [1/kg]
     Vec3 m_bestImpulse;     ///< impulse at the end of the best outer iteration
     Vec3 m_limit;           ///< maximum impulses of a joint along its axes
+    Vec3 m_lower;           ///< minimum impulses of a joint along its axes, at least -m_limit
     double m_maxImpulse = 0;  ///< maximum norm of a joint's impulse
     double m_softness = 0;    ///< joint: added compliance as a multiple of its own [-]
     double m_spring = 0;      ///< joint: added compliance [1/kg]
     int m_pressed = -1;       ///< contact: row of the torsional friction that its normal impulse loads
     double m_load = 0;        ///< torsional friction: sum of these normal impulses [N s]
+    double m_maxLoad = 0;     ///< torsional friction: maximum of m_load that counts [N s]
     double m_lever = 1;       ///< torsional friction: lever that converts spin to speed [m]
 };
 

@@ -24,6 +24,11 @@ Vec3 ContactRows::velocity(const ConstraintSide& end) const
     if (end.m_body >= 0) return m_bodies[end.m_body].velocity(end.m_end);
     if (end.m_rigidProxy < 0) return {};
     const RigidProxy& o = m_problem->m_rigidProxies[end.m_rigidProxy];
+    if (end.m_jacobian >= 0)
+    {
+        const RigidJacobian& jacobian = m_problem->m_jacobians[end.m_jacobian];
+        return jacobian.m_linear * o.m_linearVelocity + jacobian.m_angular * o.m_angularVelocity;
+    }
     return end.m_angular ? o.m_angularVelocity : o.m_linearVelocity + cross(o.m_angularVelocity, end.m_arm);
 }
 
@@ -39,7 +44,12 @@ void ContactRows::react(const ConstraintSide& end, const Vec3& impulse)
         rigidProxies[k].m_linearVelocity += linear;
         rigidProxies[k].m_angularVelocity += angular;
     };
-    const Vec3 linear = end.m_angular ? Vec3() : impulse, angular = end.m_angular ? impulse : cross(end.m_arm, impulse);
+    Vec3 linear = end.m_angular ? Vec3() : impulse, angular = end.m_angular ? impulse : cross(end.m_arm, impulse);
+    if (end.m_jacobian >= 0)
+    {
+        linear = transposeTimes(m_problem->m_jacobians[end.m_jacobian].m_linear, impulse);
+        angular = transposeTimes(m_problem->m_jacobians[end.m_jacobian].m_angular, impulse);
+    }
     respond(*m_problem, end.m_rigidProxy, linear, angular, add);
     if (rigidProxy.m_responseCount == 0) return;
     rigidProxies[end.m_rigidProxy].m_accumulatedImpulse += linear;
@@ -85,7 +95,7 @@ bool ContactRows::movesRigid(const ContactRow& row) const
 Vec3 ContactRows::pointOf(std::size_t row) const
 {
     if (row < m_problem->m_contacts.size()) return m_problem->m_contacts[row].m_point;
-    const ConstraintSide& end = m_rows[row].m_torsion ? m_rows[row].m_b : m_rows[row].m_a;
+    const ConstraintSide& end = m_rows[row].m_a.m_rigidProxy >= 0 ? m_rows[row].m_a : m_rows[row].m_b;
     return m_problem->m_rigidProxies[end.m_rigidProxy].m_center + end.m_arm;
 }
 
@@ -345,7 +355,7 @@ double ContactRows::store()
         });
     std::size_t k = contacts.size();
     for (Joint& joint : m_problem->m_joints) joint.m_impulse = m_rows[k++].m_impulse;
-    k += m_problem->m_rigidContacts.size();
+    for (RigidContact& contact : m_problem->m_rigidContacts) contact.m_impulse = m_rows[k++].m_impulse;
     for (TorsionalFriction& torsion : m_problem->m_torsions) torsion.m_impulse = m_rows[k++].m_impulse;
     return worst;
 }

@@ -31,6 +31,7 @@ void ContactProblem::clear()
     m_joints.clear();
     m_rigidContacts.clear();
     m_torsions.clear();
+    m_jacobians.clear();
     m_torsionOf.clear();
     m_handleNodes.clear();
     m_handleBlocks.clear();
@@ -72,16 +73,17 @@ struct ContactSolver::Scratch
     ContactProblem* m_problem = nullptr;
     ContactSettings m_settings;
     ContactReport m_report;
-    RowSurvey m_found;        // after the last outer iteration
-    double m_error = 1;       // errorNow() after the last outer iteration
-    double m_left = 0;        // speedLeft() after the last outer iteration
-    double m_best = 0;        // minimum of m_left so far
-    bool m_isBest = false;    // the last outer iteration is the best
-    bool m_isCalm = false;    // the warm start was accurate
-    double m_goal = 0;        // error at which outer iterations end
-    bool m_loose = false;     // the last corrective solves were loose
-    double m_floor = 0;       // share of a body's impulses that residuals are measured against
-    bool m_guessing = false;  // the impulses are the warm start
+    RowSurvey m_found;         // after the last outer iteration
+    double m_error = 1;        // errorNow() after the last outer iteration
+    double m_left = 0;         // speedLeft() after the last outer iteration
+    double m_best = 0;         // minimum of m_left so far
+    bool m_isBest = false;     // the last outer iteration is the best
+    bool m_holdsSoft = false;  // joints hold soft bodies
+    bool m_isCalm = false;     // the warm start was accurate
+    double m_goal = 0;         // error at which outer iterations end
+    bool m_loose = false;      // the last corrective solves were loose
+    double m_floor = 0;        // share of a body's impulses that residuals are measured against
+    bool m_guessing = false;   // the impulses are the warm start
     SweepProgress m_progress;
     bool m_stalled = false;
     bool m_othersMoved = false;  // rows of others changed velocities in this outer iteration
@@ -152,23 +154,6 @@ struct Standstill
 };
 constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
 
-// The displacement of a rigid proxy by position correction, h pushLinear, also changes its angular momentum; its spin
-// then changes by the sum of all. For articulated proxies the caller, who knows the joints, forms the sum.
-void payBackOwn(RigidProxy& rigidProxy, double h)
-{
-    if (rigidProxy.m_responseCount > 0) return;
-    const Vec3& w = rigidProxy.m_inverseMass;
-    if (!(w.x > 0 && w.y > 0 && w.z > 0))
-    {
-        rigidProxy.m_angularImpulse = {};
-        return;
-    }
-    const Vec3 momentum = {rigidProxy.m_linearVelocity.x / w.x, rigidProxy.m_linearVelocity.y / w.y,
-                           rigidProxy.m_linearVelocity.z / w.z};
-    rigidProxy.m_angularImpulse -= cross(h * rigidProxy.m_pushLinear, momentum);
-    rigidProxy.m_angularVelocity += rigidProxy.m_inverseInertia * rigidProxy.m_angularImpulse;
-}
-
 }  // namespace
 
 double residualFloor(double contactTolerance, double solveTolerance)
@@ -208,7 +193,9 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
                 rigidProxy.m_accumulatedAngularImpulse = {};
     if (s.m_empty) return;
     const bool joints = !problem.m_joints.empty();
-    s.m_floor = joints ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
+    const auto holdsSoft = [](const Joint& joint) { return joint.m_a.m_body >= 0 || joint.m_b.m_body >= 0; };
+    s.m_holdsSoft = std::any_of(problem.m_joints.begin(), problem.m_joints.end(), holdsSoft);
+    s.m_floor = s.m_holdsSoft ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_rows.assemble(problem, settings, {s.m_floor, 0});
     s.m_sweeps.begin();
     s.m_gcr.begin();
@@ -237,7 +224,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_error = errorNow();
     s.m_goal = std::max(kRestShare * s.m_settings.m_tolerance, std::min(s.m_settings.m_tolerance, kFinestRest));
     s.m_settings.m_tolerance = std::clamp(kForcing * s.m_error, s.m_goal, s.m_settings.m_tolerance);
-    if (!joints) s.m_floor = residualFloor(s.m_settings.m_tolerance, settings.m_step.m_tolerance);
+    if (!s.m_holdsSoft) s.m_floor = residualFloor(s.m_settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_isCalm = std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed()) < kCalmGuess * s.m_rows.loadSpeed();
     s.m_best = std::numeric_limits<double>::infinity();
     if (guesses || !joints) noteBest();  // zero impulses of joints are no acceptable solution
@@ -357,9 +344,8 @@ void ContactSolver::correct()
     s.m_progress = {};
     if (s.m_isCalm) s.m_sweeps.end();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
-    const bool joints = !s.m_problem->m_joints.empty();
     const bool wasLoose = s.m_loose;
-    s.m_loose = !joints && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
+    s.m_loose = !s.m_holdsSoft && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
                 s.m_error > kFarFromTolerance * s.m_settings.m_tolerance;
     if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report))
         s.m_sweeps.joints().reform();
@@ -391,9 +377,7 @@ ContactReport ContactSolver::finish()
     s.m_report.m_converged = s.m_report.m_converged && errorOfJoints() <= kUnsolvedJoints;
     s.m_report.m_violation = s.m_rows.store();
     s.m_rows.noteReactions();
-    if (!s.m_push.isNeeded()) return s.m_report;
-    s.m_report.m_sweeps += s.m_push.push();
-    for (RigidProxy& rigidProxy : s.m_problem->m_rigidProxies) payBackOwn(rigidProxy, s.m_settings.m_step.m_step);
+    if (s.m_push.isNeeded()) s.m_report.m_sweeps += s.m_push.push();
     return s.m_report;
 }
 

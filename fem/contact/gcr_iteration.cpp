@@ -117,17 +117,18 @@ void GcrIteration::noteDirection()
 template <class Visit>
 void GcrIteration::forEndsOf(const ContactRow& row, const Visit& visit) const
 {
+    const bool isRigid = row.m_a.m_body < 0 && row.m_b.m_body < 0;
     for (const ConstraintSide* end : {&row.m_a, &row.m_b})
-        if (end->m_body >= 0) visit(end->m_body);
+        if (const int mover = m_rows.mover(*end); mover >= 0 && (isRigid || end->m_body >= 0)) visit(mover);
 }
 
 void GcrIteration::noteLargest()
 {
-    m_largest.assign(m_rows.problem().m_bodies.size(), 0);
+    m_largest.assign(m_rows.movers(), 0);
     for (int k = 0; 3 * k < m_joints.unknowns(); ++k)
     {
         const double size = norm(m_joints.row(k).m_impulse);
-        forEndsOf(m_joints.row(k), [&](int b) { m_largest[b] = std::max(m_largest[b], size); });
+        forEndsOf(m_joints.row(k), [&](int mover) { m_largest[mover] = std::max(m_largest[mover], size); });
     }
 }
 
@@ -141,7 +142,7 @@ double GcrIteration::largestShare(double negligible) const
         const Vec3 lacks = {answer[0], answer[1], answer[2]};
         if (!(speedOf(row, lacks) > negligible)) continue;
         double largest = norm(lacks);
-        forEndsOf(row, [&](int b) { largest = std::max(largest, m_largest[b]); });
+        forEndsOf(row, [&](int mover) { largest = std::max(largest, m_largest[mover]); });
         share = std::max(share, norm(lacks) / largest);
     }
     return share;

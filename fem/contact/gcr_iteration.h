@@ -70,7 +70,7 @@ private:
     int m_changes = 0;                    // JointSystem::changes() at the time of these data
     std::vector<unsigned char> m_acting;  // per row: an active contact in the last outer iteration
     std::vector<double> m_before, m_shift;
-    std::vector<double> m_largest;  // maximum impulse per body in the last outer iteration [N s]
+    std::vector<double> m_largest;  // maximum impulse per mover in the last outer iteration [N s]
 };
 
 }  // namespace bullet_fem

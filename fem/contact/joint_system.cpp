@@ -27,14 +27,22 @@ double along(const ContactRow& row, int axis)
     return dot(row.m_impulse, row.m_axes[axis]);
 }
 
+// True if an impulse is at its maximum or minimum. 0 as minimum is reached exactly, as limits hold by clamping.
+bool isAtLimit(const ContactRow& joint, int axis)
+{
+    const double component = along(joint, axis), lower = joint.m_lower[axis];
+    return component >= kAtLimit * joint.m_limit[axis] || component <= (lower < 0 ? kAtLimit : 2 - kAtLimit) * lower;
+}
+
 // Clamps a joint's impulse to its limits, and marks the axes at a limit.
 Vec3 withinLimits(const ContactRow& joint, Vec3 impulse, unsigned char* held)
 {
     for (int i = 0; i < 3; ++i)
     {
         const double component = dot(impulse, joint.m_axes[i]);
-        if (!(std::fabs(component) > joint.m_limit[i])) continue;
-        impulse += (std::copysign(joint.m_limit[i], component) - component) * joint.m_axes[i];
+        const double limited = std::clamp(component, joint.m_lower[i], joint.m_limit[i]);
+        if (limited == component) continue;
+        impulse += (limited - component) * joint.m_axes[i];
         held[i] = 1;
     }
     const double length = norm(impulse);
@@ -64,10 +72,10 @@ void JointSystem::begin()
         const bool atMost = norm(joint.m_impulse) >= kAtLimit * joint.m_maxImpulse;
         for (int i = 0; i < 3; ++i)
         {
-            m_isIdle[3 * k + i] = joint.m_idle || !(joint.m_rowCompliance[i] > 0) || !(joint.m_limit[i] > 0) ||
+            m_isIdle[3 * k + i] = joint.m_idle || !(joint.m_rowCompliance[i] > 0) ||
+                                  !(joint.m_limit[i] > joint.m_lower[i]) ||
                                   !isFinite(joint.m_target);  // NaN is never applied
-            m_isHeld[3 * k + i] =
-                m_isIdle[3 * k + i] || atMost || std::fabs(along(joint, i)) >= kAtLimit * joint.m_limit[i];
+            m_isHeld[3 * k + i] = m_isIdle[3 * k + i] || atMost || isAtLimit(joint, i);
             joint.m_held = joint.m_held || (m_isHeld[3 * k + i] && !m_isIdle[3 * k + i]);
         }
     }
@@ -289,7 +297,7 @@ double JointSystem::sweepHeld(Part& part, int joint)
     for (int i = 0; i < 3; ++i)
     {
         if (!isSwept(i) || m_patience == 0) continue;
-        if (!isWithin || !(std::fabs(along(r, i)) < kAtLimit * r.m_limit[i])) continue;
+        if (!isWithin || isAtLimit(r, i)) continue;
         m_isHeld[3 * joint + i] = 0;
         part.m_stale = true;
         --m_patience;
@@ -310,7 +318,11 @@ Vec3 JointSystem::changeOf(int joint) const
 bool JointSystem::isBeyondLimits(const ContactRow& joint, const Vec3& impulse) const
 {
     bool isBeyond = norm(impulse) > joint.m_maxImpulse;
-    for (int i = 0; i < 3; ++i) isBeyond = isBeyond || std::fabs(dot(impulse, joint.m_axes[i])) > joint.m_limit[i];
+    for (int i = 0; i < 3; ++i)
+    {
+        const double component = dot(impulse, joint.m_axes[i]);
+        isBeyond = isBeyond || component > joint.m_limit[i] || component < joint.m_lower[i];
+    }
     return isBeyond;
 }
 

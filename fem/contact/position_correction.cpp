@@ -28,6 +28,23 @@ double pushSpeed(const ContactPoint& contact, const ContactSettings& settings)
     return std::min(share * depth / settings.m_step.m_step, settings.m_maxPushVelocity);
 }
 
+// The displacement of a rigid proxy by position correction, h pushLinear, also changes its angular momentum; its spin
+// then changes by the sum of all. For articulated proxies the caller, who knows the joints, forms the sum.
+void payBackOwn(RigidProxy& rigidProxy, double h)
+{
+    if (rigidProxy.m_responseCount > 0) return;
+    const Vec3& w = rigidProxy.m_inverseMass;
+    if (!(w.x > 0 && w.y > 0 && w.z > 0))
+    {
+        rigidProxy.m_angularImpulse = {};
+        return;
+    }
+    const Vec3 momentum = {rigidProxy.m_linearVelocity.x / w.x, rigidProxy.m_linearVelocity.y / w.y,
+                           rigidProxy.m_linearVelocity.z / w.z};
+    rigidProxy.m_angularImpulse -= cross(h * rigidProxy.m_pushLinear, momentum);
+    rigidProxy.m_angularVelocity += rigidProxy.m_inverseInertia * rigidProxy.m_angularImpulse;
+}
+
 }  // namespace
 
 void PositionCorrection::begin()
@@ -82,7 +99,8 @@ Vec3 PositionCorrection::lagOf(const ContactRow& row, const Joint& joint) const
     if (!(m_rows.theta(row) < 1) || row.m_yield.x > 0 || joint.m_maxImpulse < Joint::kUnlimited) return lag;
     const Vec3 mean = m_rows.meanVelocity(row);
     for (int i = 0; i < 3; ++i)
-        if (joint.m_limit[i] >= Joint::kUnlimited) lag[i] = joint.m_wanted[i] - dot(row.m_axes[i], mean);
+        if (joint.m_limit[i] >= Joint::kUnlimited && joint.m_lower[i] <= -Joint::kUnlimited)
+            lag[i] = joint.m_wanted[i] - dot(row.m_axes[i], mean);
     return lag;
 }
 
@@ -185,6 +203,7 @@ int PositionCorrection::push()
     m_rows.forEachContactBody(step.m_threads,
                               [&](int b) { m_pushed[b].m_gained = m_rows.body(b).applyPositionCorrection(step); });
     payBack();
+    for (RigidProxy& rigidProxy : rigidProxies) payBackOwn(rigidProxy, m_step);
     return sweeps;
 }
 

@@ -27,9 +27,17 @@ void ContactRows::addRigidContactRow(const RigidContact& touch)
     row.m_b.m_rigidProxy = touch.m_other;
     row.m_b.m_arm = touch.m_otherArm;
     setAxes(touch.m_normal, row);
+    if (touch.m_aspect != 1)
+    {
+        row.m_aspect = touch.m_aspect;
+        row.m_axes[1] = touch.m_slipAxis;
+        row.m_axes[2] = cross(touch.m_normal, touch.m_slipAxis);
+    }
     for (int i = 0; i < 3; ++i) row.m_target[i] = dot(touch.m_otherVelocity, row.m_axes[i]);
     row.m_target.x += touch.m_pushOnly ? -kAnySpeed : touch.m_leastSpeed;
     row.m_friction = touch.m_friction;
+    row.m_yield.x = touch.m_compliance;
+    row.m_impulse = touch.m_impulse;
     m_rows.push_back(row);
 }
 

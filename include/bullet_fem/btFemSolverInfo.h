@@ -56,7 +56,7 @@ struct BULLETFEM_API btFemSolverInfo
     /// step, or to the initial velocity change by contact if that is larger [-], in [1e-7, 0.1]. Resting contacts
     /// converge to a hundredth of it within a few steps. Stricter tolerances hold for impacts (5e-4 of an element's
     /// edge per step), contacts with restitution (3e-5), joints (1e-3 of the impulses on their bodies), and groups with
-    /// rows of Bullet in btFemConstraintSolver (1e-4).
+    /// multibodies in Bullet's rigid solver (1e-4).
     btScalar m_contactTolerance = btScalar(3e-3);
     int m_maxContacts = 2000;                  ///< maximum number of contact points per body, in [8, 20000]
     btScalar m_erp = btScalar(0.2);            ///< share of a penetration corrected per step [-], in [0, 1]

@@ -5,7 +5,8 @@
 template <class Visit>
 void btFemBulletRows::forEach(const Visit& visit) const
 {
-    for (btConstraintArray* rows : m_rigid)
+    for (btConstraintArray* rows :
+         {&m_constraints.m_joints, &m_constraints.m_contacts, &m_constraints.m_friction, &m_constraints.m_torsions})
         for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
     if (!m_linkData) return;
     for (btMultiBodyConstraintArray* rows : m_links)
@@ -51,7 +52,7 @@ void btFemBulletRows::change(btMultiBodySolverConstraint& row, btScalar impulse)
 void btFemBulletRows::changeBody(int body, const btVector3& linear, const btVector3& angular, btScalar impulse) const
 {
     if (body < 0) return;
-    btSolverBody& solverBody = m_pool[body];
+    btSolverBody& solverBody = m_constraints.m_bodies[body];
     solverBody.internalApplyImpulse(linear * solverBody.internalGetInvMass(), angular, impulse);
 }
 

@@ -2,18 +2,26 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h"
+#include "bullet_bridge/rigid/bullet_rows.h"
 
 /// The rows of Bullet's constraint solvers: those between rigid bodies, then those of links. A view.
 struct btFemBulletRows
 {
-    btAlignedObjectArray<btSolverBody>& m_pool;
-    std::array<btConstraintArray*, 4> m_rigid;
+    bullet_fem::BulletConstraints m_constraints;              ///< of rigid bodies
     btMultiBodyJacobianData* m_linkData = nullptr;            ///< null: a solver without multibodies
     std::array<btMultiBodyConstraintArray*, 5> m_links = {};  ///< of a solver with multibodies
+
+    /// True if there are rows of multibodies.
+    bool hasLinks() const
+    {
+        return m_linkData && std::any_of(m_links.begin(), m_links.end(),
+                                         [](const btMultiBodyConstraintArray* rows) { return rows->size() > 0; });
+    }
 
     /// Writes the impulses of all rows [N s] to `noted`. Allocates when there are more than ever.
     void note(std::vector<btScalar>& noted) const;

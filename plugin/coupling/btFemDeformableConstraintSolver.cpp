@@ -79,7 +79,7 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
         writeToSolverBody(bodies, numBodies, info);
         return std::max(rigid, soft);
     };
-    m_islandSolver->solveTogether(*this, info, sweep);
+    m_islandSolver->solveTogether(*this, info, sweep, others);
     m_deformable->deformableBodyInternalWriteBack();
     return 0;
 }

@@ -58,16 +58,27 @@ public:
         m_group = nullptr;
     }
 
-    /// Outer iterations: sweeps over Bullet's rows of `solver` and the soft rows in turn, then the true response of the
-    /// soft bodies. sweep(iteration) sweeps Bullet's rows once and returns the square of the largest change of a row's
-    /// velocity [m2/s2]. Call while hasFem().
+    /// Solves Bullet's rows of `solver` and the soft rows as one problem, or in turn if some of Bullet's belong to
+    /// multibodies or to its own soft bodies (`others`). sweep(iteration) sweeps Bullet's rows once and returns the
+    /// square of the largest change of a row's velocity [m2/s2]. Call while hasFem().
     template <class Solver, class Sweep>
-    void solveTogether(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep)
+    void solveTogether(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep, bool others = false)
     {
         const btFemBulletRows rows = rowsOf(solver);
+        if (!others && !rows.hasLinks() && m_group->canTakeRows())
+            m_group->solveWith(rows.m_constraints);
+        else
+            solveInTurn(rows, info, sweep);
+    }
+
+private:
+    // Outer iterations: sweeps over Bullet's rows and the soft rows in turn, then the true response of the soft bodies.
+    template <class Sweep>
+    void solveInTurn(const btFemBulletRows& rows, const btContactSolverInfo& info, const Sweep& sweep)
+    {
         const int sweeps = std::max(m_group->settings().m_sweeps, info.m_numIterations);
         const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
-        m_group->begin(rows.m_pool, rows.m_linkData ? &rows.m_linkData->m_deltaVelocities : nullptr);
+        m_group->begin(rows.m_constraints.m_bodies, rows.m_linkData ? &rows.m_linkData->m_deltaVelocities : nullptr);
         rows.note(m_noted);
         do
         {
@@ -89,14 +100,13 @@ public:
         m_group->finish();
     }
 
-private:
     template <class Solver>
     static btFemBulletRows rowsOf(Solver& solver)
     {
-        btFemBulletRows rows = {solver.m_tmpSolverBodyPool,
-                                {&solver.m_tmpSolverNonContactConstraintPool, &solver.m_tmpSolverContactConstraintPool,
-                                 &solver.m_tmpSolverContactFrictionConstraintPool,
-                                 &solver.m_tmpSolverContactRollingFrictionConstraintPool}};
+        btFemBulletRows rows = {{solver.m_tmpSolverBodyPool, solver.m_tmpSolverNonContactConstraintPool,
+                                 solver.m_tmpSolverContactConstraintPool,
+                                 solver.m_tmpSolverContactFrictionConstraintPool,
+                                 solver.m_tmpSolverContactRollingFrictionConstraintPool}};
         if constexpr (std::is_base_of_v<btMultiBodyConstraintSolver, Solver>)
         {
             rows.m_linkData = &solver.m_data;

@@ -27,34 +27,6 @@ constexpr double kRestitutionVelocity = 0.2;
 static_assert(btFemSolverInfo().m_contactSweeps == ContactSettings().m_sweeps);
 static_assert(btFemSolverInfo().m_contactRounds == ContactSettings().m_rounds);
 
-// Fills in the impulse on one side, and that side's point.
-void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
-{
-    const SurfacePoint& side = otherSide ? point.m_other : point.m_soft;
-    const Vec3 normal = otherSide ? -point.m_normal : point.m_normal;
-    const Vec3 impulse = otherSide ? -point.m_impulse : point.m_impulse;
-    contact.m_point = bulletVector(point.m_point);
-    contact.m_normal = bulletVector(normal);
-    contact.m_gap = static_cast<btScalar>(point.m_gap);
-    contact.m_impulse = bulletVector(impulse);
-    contact.m_normalImpulse = static_cast<btScalar>(dot(impulse, normal));
-    contact.m_frictionImpulse = bulletVector(impulse - dot(impulse, normal) * normal);
-    static_assert(btFemContact::kMaxNodes == SurfacePoint::kMaxNodes);
-    contact.m_nodeCount = side.m_count;
-    for (int a = 0; a < side.m_count; ++a)
-    {
-        contact.m_nodes[a] = side.m_nodes[a];
-        contact.m_weights[a] = static_cast<btScalar>(side.m_weights[a]);
-    }
-}
-
-void noteContact(btFemBodyReports& reports, const btFemContact& contact, const ContactPoint& point)
-{
-    reports.m_contacts.push_back(contact);
-    btScalar& deepest = reports.m_step.m_deepestPenetration;
-    deepest = std::max(deepest, static_cast<btScalar>(-point.m_gap));
-}
-
 }  // namespace
 
 void btFemContactGroup::beginStep(double step)
@@ -99,9 +71,9 @@ void btFemContactGroup::collect(const Scope& scope)
     collectContacts();
     m_torsionalPatches.append(m_bodies, m_problem);
     m_rigid.links().connect(m_rigid.rigidProxies(), m_problem.m_responses);
-    const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
-    if (world && world->m_dispatcher && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
-        m_rigidContactFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
+    if (scope.m_phase == RigidPhase::moved && (!m_problem.m_contacts.empty() || m_rigid.holdsRewound()))
+        findRigidContacts();
+    addIsland(scope);
     m_problem.m_rigidProxies.assign(m_rigid.rigidProxies().begin(), m_rigid.rigidProxies().end());
     m_cloth.append(m_step, m_problem);
     listOverlaps();
@@ -111,13 +83,26 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
     m_settings.m_sweeps = m_info.m_contactSweeps;
-    m_settings.m_untilSolved = scope.m_phase == RigidPhase::solving;  // Bullet's rows need the outer iterations, too
+    m_settings.m_untilSolved = false;
     m_settings.m_tolerance = m_info.m_contactTolerance;
-    if (m_settings.m_untilSolved) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     if (mayRebound(m_problem)) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kReboundTolerance);
     m_settings.m_pushFraction = m_info.m_erp;
     m_settings.m_maxPushVelocity = m_info.m_maxPushVelocity;
     m_milliseconds = watch.milliseconds();
+}
+
+void btFemContactGroup::findRigidContacts()
+{
+    const btSoftBodyWorldInfo* world = m_bodies.empty() ? nullptr : m_bodies.front()->m_softBody->m_worldInfo;
+    if (world && world->m_dispatcher)
+        m_rigidContactFinder.find(*world->m_dispatcher, m_step, m_rigid, m_problem.m_rigidContacts);
+}
+
+// Every movable body that Bullet solves with the group is a rigid proxy.
+void btFemContactGroup::addIsland(const Scope& scope)
+{
+    for (int k = 0; k < scope.m_islandCount; ++k)
+        if (movableBody(*scope.m_island[k])) m_rigid.indexOf(*scope.m_island[k], m_step);
 }
 
 void btFemContactGroup::findRigid()
@@ -245,8 +230,27 @@ void btFemContactGroup::onSolverBodies(const Part& part)
     m_milliseconds += watch.milliseconds();
 }
 
+void btFemContactGroup::solveWith(const BulletConstraints& bullet)
+{
+    const btFemStopwatch watch;
+    m_solverBodies.begin(m_rigid, bullet.m_bodies, nullptr);
+    m_bulletRows.append(bullet, m_solverBodies.proxyOf(), m_problem);
+    m_solverBodies.read(m_problem.m_rigidProxies);
+    const ContactReport solved = m_solver.solve(m_problem, m_settings);
+    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
+    m_bulletRows.takeBack(bullet, m_problem);
+    m_solverBodies.write(m_problem.m_rigidProxies);
+    m_solverBodies.end(m_rigid);
+    m_milliseconds += watch.milliseconds();
+    report(solved);
+}
+
+// Bullet's rows need the outer iterations, too.
 void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas)
 {
+    if (!m_problem.m_contacts.empty()) findRigidContacts();
+    m_settings.m_untilSolved = true;
+    m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     m_solverBodies.begin(m_rigid, pool, linkDeltas);
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
 }
@@ -291,108 +295,4 @@ void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& record
     m_bodies.clear();
     for (btFemBodyRecord* record : records) m_bodies.push_back(&record->fem());
     m_rebounds.give(m_bodies, world, m_rigid, step);
-}
-
-// Distributes contacts, joints and the report to the bodies.
-void btFemContactGroup::report(const ContactReport& report)
-{
-    makeRoomForReports();
-    m_together.clear();
-    for (const btFemBodyRecord* record : m_records) m_together.emplace_back(record->m_softBody, record);
-    std::sort(m_together.begin(), m_together.end());
-    m_touchesBegin.assign(m_records.size(), 0);
-    m_settings.m_step.m_threads->run(static_cast<int>(m_records.size()),
-                                     [&](int b)
-                                     {
-                                         reportBody(b, report);
-                                         m_touchesBegin[b] = !updateKnownTouches(*m_records[b], m_together);
-                                     });
-    m_softPairs.remember(m_problem.m_contacts.data() + m_firstRigid.back());
-    for (std::size_t b = 0; b < m_records.size(); ++b)
-    {
-        if (m_touchesBegin[b]) updateTouches(*m_records[b], m_together);
-        SoftJoints::takeBack(*m_bodies[b], m_problem);
-        writeReports(*m_bodies[b], m_records[b]->m_reports.m_anchors);
-    }
-    m_welds.breakWelds(m_bodies, m_step);
-}
-
-// On one thread: Bullet's allocator may not be thread-safe.
-void btFemContactGroup::makeRoomForReports()
-{
-    const auto visitSides = [this](const auto& visit)
-    {
-        for (std::size_t k = m_firstRigid.back(); k < m_cloth.first(); ++k)
-        {
-            const int a = m_problem.m_contacts[k].m_soft.m_body, b = m_problem.m_contacts[k].m_other.m_body;
-            visit(a, k);
-            if (b != a) visit(b, k);
-        }
-    };
-    std::vector<std::size_t>& first = m_firstSoft;
-    first.assign(m_records.size() + 2, 0);  // shifted by one while the array is filled
-    visitSides([&first](int b, std::size_t) { ++first[b + 2]; });
-    for (std::size_t b = 2; b < first.size(); ++b) first[b] += first[b - 1];
-    m_softContacts.resize(first.back());
-    visitSides([&](int b, std::size_t k) { m_softContacts[first[b + 1]++] = k; });
-    first.pop_back();
-    for (std::size_t b = 0; b < m_records.size(); ++b)
-    {
-        btAlignedObjectArray<btFemContact>& reported = m_records[b]->m_reports.m_contacts;
-        const int count =
-            static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]) + m_cloth.countOf(b);
-        if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
-    }
-}
-
-void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
-{
-    btFemBodyRecord& record = *m_records[b];
-    ContactMemory& memory = record.fem().m_memory;
-    std::copy_n(m_problem.m_contacts.begin() + static_cast<std::ptrdiff_t>(m_firstRigid[b]), memory.m_contacts.size(),
-                memory.m_contacts.begin());
-    record.m_reports.m_contacts.resize(0);
-    record.m_reports.m_step.m_contactMs = static_cast<btScalar>(m_milliseconds);
-    record.m_reports.m_step.m_contactSweeps = report.m_sweeps;
-    record.m_reports.m_step.m_contactIterations = report.m_iterations;
-    record.m_reports.m_step.m_contactViolation = static_cast<btScalar>(report.m_violation);
-    record.m_reports.m_step.m_deepestPenetration = 0;
-    if (!report.m_converged) record.m_reports.m_step.m_flags |= BT_FEM_NOT_CONVERGED;
-    for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
-    {
-        btFemContact contact;
-        fill(contact, memory.m_contacts[k], false);
-        contact.m_other = memory.m_origins[k].m_object;
-        contact.m_part = memory.m_origins[k].m_part;
-        contact.m_index = memory.m_origins[k].m_triangle;
-        noteContact(record.m_reports, contact, memory.m_contacts[k]);
-    }
-    // Both bodies report a contact between them, each from its side; self contact is reported once.
-    for (std::size_t k = m_firstSoft[b]; k < m_firstSoft[b + 1]; ++k)
-    {
-        const ContactPoint& point = m_problem.m_contacts[m_softContacts[k]];
-        const bool otherSide = point.m_soft.m_body != static_cast<int>(b);
-        btFemContact contact;
-        fill(contact, point, otherSide);
-        contact.m_other = m_records[otherSide ? point.m_soft.m_body : point.m_other.m_body]->m_softBody;
-        noteContact(record.m_reports, contact, point);
-    }
-    reportCloth(b);
-    record.m_reports.m_step.m_contacts = record.m_reports.m_contacts.size();
-    record.m_reports.m_step.m_flags |= stateFlags(record) & BT_FEM_PENETRATING;
-}
-
-// Reports contact points on the body's surface, as for rigid objects.
-void btFemContactGroup::reportCloth(std::size_t b)
-{
-    for (std::size_t k = 0; k < m_cloth.size(); ++k)
-    {
-        const ContactPoint& point = m_problem.m_contacts[m_cloth.first() + k];
-        if (point.m_soft.m_body != static_cast<int>(b)) continue;
-        btFemContact contact;
-        fill(contact, point, false);
-        contact.m_point = bulletVector(m_cloth.onBody(k));
-        contact.m_other = &m_cloth.cloth(k);
-        noteContact(m_records[b]->m_reports, contact, point);
-    }
 }

@@ -9,6 +9,7 @@
 #include "bullet_bridge/contact/rigid/torsional_patches.h"
 #include "bullet_bridge/contact/soft/soft_pair_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/rigid/bullet_rows.h"
 #include "bullet_bridge/rigid/rebounds.h"
 #include "bullet_bridge/rigid/rigid_contacts.h"
 #include "bullet_bridge/rigid/solver_bodies.h"
@@ -38,6 +39,8 @@ public:
         const btFemRecords& m_all;
         double m_step;  ///< time step of the world [s]
         bullet_fem::RigidPhase m_phase;
+        btCollisionObject* const* m_island = nullptr;  ///< phase `solving`: the objects that Bullet solves
+        int m_islandCount = 0;
     };
 
     /// Call at the start of a step of `step` [s].
@@ -65,7 +68,14 @@ public:
     /// Solves after Bullet's rigid solver, and applies the reactions to the rigid bodies.
     void solve();
 
-    /// Solves within Bullet's rigid solver, on its solver bodies, by the functions of ContactSolver: begin; while
+    /// True if Bullet's constraints of the island can be solved with the group's: there are no links of multibodies.
+    bool canTakeRows() const { return m_rigid.links().isEmpty(); }
+
+    /// Solves within Bullet's rigid solver, after its set-up, the group's problem with Bullet's constraints in it, and
+    /// writes all velocities and impulses back. moveRigid follows after the rigid solver has written its bodies back.
+    void solveWith(const bullet_fem::BulletConstraints& bullet);
+
+    /// Solves in turn with Bullet's rigid solver, on its solver bodies, by the functions of ContactSolver: begin; while
     /// needsOuterIteration, one outer iteration of sweep (repeatedly) and correct; restoreBest if shouldRollBack;
     /// finally finish; and moveRigid after the rigid solver has written its bodies back. `others`: largest velocity
     /// change by Bullet's rows since the last sweep [m/s]. `linkDeltas`: see ArticulatedBodies::beginSolve; null for a
@@ -106,6 +116,8 @@ private:
     void findRigid();
     void findSoft();
     void findCloth();
+    void findRigidContacts();
+    void addIsland(const Scope& scope);
     void collectContacts();
     void listOverlaps();
     void alignLinks(std::vector<bullet_fem::ContactPoint>& contacts) const;
@@ -138,6 +150,7 @@ private:
     btFemWeldBreaker m_welds;
     bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
+    bullet_fem::BulletRows m_bulletRows;
     bullet_fem::Rebounds m_rebounds;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;

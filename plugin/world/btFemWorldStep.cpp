@@ -63,7 +63,7 @@ btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, 
     if (m_due.empty()) return nullptr;
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_active.assign(m_due.begin(), m_due.end());
-    m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving});
+    m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving, bodies, count});
     m_freeMotion.dampTouching(m_group.touching());
     if (m_group.isEmpty()) return nullptr;
     if (!m_group.holdsOnly(bodies, count, linksToo))

@@ -36,7 +36,9 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
     const btScalar h = btScalar(1) / scene.m_frequency;
     const double slope = std::atan(scene.m_steepness * kFriction);
     const btQuaternion tilt(btVector3(0, 1, 0), btScalar(slope));
-    btFemSoftBodySolver fem;
+    btFemSolverInfo info;
+    info.m_contactTolerance = btScalar(1e-4);  // at 3e-3 a point may stick for a step
+    btFemSoftBodySolver fem(info);
     SoftWorld world(fem, Coupling::coupled);
     SoftBox slab;
     slab.m_size = {3, 0.4, 0.1};

@@ -119,8 +119,7 @@ struct ContactPoint
     Vec3 m_slip;
 };
 
-/// A non-penetration row between a rigid proxy and another or an immovable object. Its impulses appear only in the
-/// rigid proxies' new velocities.
+/// A contact between a rigid proxy and another or an immovable object.
 struct RigidContact
 {
     int m_rigidProxy = -1;    ///< index into the rigid proxies of the solve
@@ -131,10 +130,15 @@ struct RigidContact
     double m_gap = 0;         ///< signed distance [m]; negative inside
     bool m_moves = true;      ///< the gap changes by the velocities of the solve
     double m_leastSpeed = 0;  ///< minimum separation speed along the normal [m/s]; < 0: approach is allowed
-    /// Velocity of an immovable other at the contact point [m/s]; m_leastSpeed and the sliding velocity of friction are
-    /// relative to it.
+    /// Velocity at the contact point of an immovable other, or of the belt that runs on a movable one [m/s];
+    /// m_leastSpeed and the sliding velocity of friction are relative to it.
     Vec3 m_otherVelocity;
-    double m_friction = 0;     ///< Coulomb friction coefficient [-], >= 0
+    double m_compliance = 0;   ///< added compliance along the normal [1/kg], >= 0; 0: rigid
+    double m_friction = 0;     ///< Coulomb friction coefficient [-], >= 0; the larger one if it is anisotropic
+    double m_aspect = 1;       ///< anisotropic friction: ratio of the smaller coefficient to the larger one, in [0, 1]
+    Vec3 m_slipAxis;           ///< anisotropic friction: unit tangent of the larger coefficient [-]
+    int m_torsion = -1;        ///< index of the torsional friction that it presses on; -1: none
+    Vec3 m_impulse;            ///< impulse on m_rigidProxy [N s]: input is the warm start, output the solution
     bool m_pushOnly = false;   ///< the row takes part in position correction only
     bool m_isSupport = false;  ///< the other never moves, whatever the impulses
 };
@@ -192,6 +196,16 @@ struct JointEnd
     int m_rigidProxy = -1;
     Vec3 m_point;            ///< rigid side: point of action [m]
     bool m_angular = false;  ///< rigid side: its velocity is the angular one, and impulses are angular
+    /// Rigid side: index into the problem's Jacobians, by which its velocity is J (v, w) and impulses are J^T lambda
+    /// about its centre; -1: that of a point, or the spin.
+    int m_jacobian = -1;
+};
+
+/// Three rows of a constraint on the velocity v of a rigid proxy's centre and its angular velocity w.
+struct RigidJacobian
+{
+    Mat3 m_linear;   ///< of v [-] or [1/m]
+    Mat3 m_angular;  ///< of w [m] or [-]
 };
 
 /// Constrains the relative velocity of two sides, a - b, to a target along three axes: anchors, attachments, motors.
@@ -203,31 +217,36 @@ struct Joint
     JointEnd m_b;  ///< second side; the opposite impulse acts on it
     std::array<Vec3, 3> m_axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< orthonormal [-]
     Vec3 m_wanted;  ///< target of the relative velocity along the axes [m/s] or [rad/s]: error correction, motor speed
-    Vec3 m_limit = {kUnlimited, kUnlimited,
-                    kUnlimited};       ///< maximum impulse along every axis [N s] or [N m s], >= 0; 0: the axis is free
+    Vec3 m_limit = {kUnlimited, kUnlimited, kUnlimited};  ///< maximum impulse along every axis, and the opposite of the
+                                                          ///< minimum, [N s] or [N m s], >= 0; 0: the axis is free
+    Vec3 m_lower = {-kUnlimited, -kUnlimited,
+                    -kUnlimited};  ///< one-sided limits: larger minimum along every axis [N s] or [N m s], <= m_limit
     double m_maxImpulse = kUnlimited;  ///< maximum norm of the impulse [N s] or [N m s], > 0
     double m_compliance = 0;           ///< added compliance of an implicit spring [1/kg] or [1/(kg m2)], >= 0; 0: rigid
     double m_softness = 0;             ///< added compliance as a multiple of the joint's own [-], >= 0; 0: rigid
     Vec3 m_impulse;  ///< impulse on side a, world axes [N s] or [N m s]: input is the warm start, output the solution
 };
 
-/// Rolling and spinning friction of a rigid proxy's face on a patch of a soft surface: a couple between the two that
-/// opposes their relative spin, by Coulomb's law with coefficients in metres. The spin of the patch is the
-/// least-squares fit to its nodes' velocities; the couple acts on the nodes through the transpose of that fit, as
-/// forces without resultant.
+/// Rolling and spinning friction of a rigid proxy's face on a patch of a soft surface or on another rigid proxy: a
+/// couple between the two that opposes their relative spin, by Coulomb's law with coefficients in metres. The spin of
+/// the patch is the least-squares fit to its nodes' velocities; the couple acts on the nodes through the transpose of
+/// that fit, as forces without resultant.
 struct TorsionalFriction
 {
-    int m_body = 0;   ///< soft side: index into the bodies of the solve
-    int m_first = 0;  ///< its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
+    int m_body = 0;  ///< soft side: index into the bodies of the solve; -1: the first side is m_firstRigidProxy
+    int m_firstRigidProxy = -1;  ///< index into the rigid proxies; -1: none
+    int m_first = 0;             ///< its nodes are m_handleNodes[m_first ... m_first + m_count) of the problem
     int m_count = 0;  ///< number of nodes; the patch's spin is the sum of m_handleBlocks [1/m] times their velocities
-    int m_rigidProxy = 0;  ///< other side: index into the rigid proxies
+    int m_rigidProxy = 0;  ///< other side: index into the rigid proxies; -1: immovable
     std::array<Vec3, 3> m_axes = {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};  ///< normal and tangents, unit [-]
     /// Friction coefficients about the axes [m], >= 0: the maximum couple per newton of pressing force, of spinning
     /// friction about the normal and rolling friction about the tangents. The limits about the tangents form an
     /// ellipse.
     Vec3 m_friction;
-    double m_lever = 1;  ///< lever that converts spin to speed for error measures [m], > 0
-    Vec3 m_impulse;      ///< output: angular impulse on the patch [N m s]
+    Vec3 m_spin;               ///< angular velocity of an immovable other side [rad/s]
+    double m_maxLoad = 1e300;  ///< maximum pressing impulse that counts [N s], > 0
+    double m_lever = 1;        ///< lever that converts spin to speed for error measures [m], > 0
+    Vec3 m_impulse;            ///< output: angular impulse on the first side [N m s]
 };
 
 /// The input of ContactSolver: bodies, contacts and joints that are solved together. Vectors keep their capacity for
@@ -244,8 +263,9 @@ struct BULLETFEM_API ContactProblem
     /// Per contact: index of the torsional friction that it presses on, or -1; contacts beyond the array's end have
     /// none.
     std::vector<int> m_torsionOf;
-    std::vector<int> m_handleNodes;    ///< nodes of soft sides of joints and of patches, concatenated
-    std::vector<Mat3> m_handleBlocks;  ///< one per entry of m_handleNodes [-]
+    std::vector<int> m_handleNodes;          ///< nodes of soft sides of joints and of patches, concatenated
+    std::vector<Mat3> m_handleBlocks;        ///< one per entry of m_handleNodes [-]
+    std::vector<RigidJacobian> m_jacobians;  ///< of rigid sides of joints
 
     /// Empties all vectors; keeps their memory.
     void clear();
