@@ -24,6 +24,15 @@ public:
         m_entries.insert(std::upper_bound(m_entries.begin(), m_entries.end(), entry), entry);
     }
 
+    /// Replaces all keys by keyOf(0), ..., keyOf(count - 1) at these positions.
+    template <class KeyOf>
+    void assign(std::size_t count, const KeyOf& keyOf)
+    {
+        m_entries.clear();
+        for (std::size_t k = 0; k < count; ++k) m_entries.emplace_back(keyOf(k), static_cast<int>(k));
+        std::sort(m_entries.begin(), m_entries.end());
+    }
+
     /// The smallest position with a key; -1 if there is none.
     int find(Key key) const
     {

@@ -28,6 +28,8 @@ using namespace bullet_fem;
 namespace
 {
 
+constexpr int kTouches = 8;  // objects that a body touches before the list of touches grows
+
 FactorChoice coreChoice(btFemFactorChoice choice)
 {
     if (choice == btFemFactorChoice::lowMemoryBeyond) return FactorChoice::lowMemoryBeyond;
@@ -162,6 +164,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
     record.m_model.m_flags =
         flagsOf(mesh) | (repaired ? BT_FEM_BAD_MASS : 0) | (record.m_asked.m_baked && !baked ? BT_FEM_BAKED_UNUSED : 0);
     record.m_asked.m_baked.reset();
+    record.m_reports.m_touches.reserve(kTouches);
     if (record.m_model.m_wasChanged) record.m_reports.m_step.m_flags |= BT_FEM_CHANGED_MESH;
     record.m_model.m_wasChanged = false;
 }

@@ -103,6 +103,17 @@ void btFemContactGroup::addIsland(const Scope& scope)
 {
     for (int k = 0; k < scope.m_islandCount; ++k)
         if (movableBody(*scope.m_island[k])) m_rigid.indexOf(*scope.m_island[k], m_step);
+    if (!scope.m_rewind) return;
+    m_met.clear();
+    const auto meet = [this](int rigidProxy)
+    {
+        if (rigidProxy >= 0) m_met.push_back(&m_rigid.object(rigidProxy));
+    };
+    for (const ContactPoint& contact : m_problem.m_contacts) meet(contact.m_rigidProxy);
+    for (const Joint& joint : m_problem.m_joints)
+        for (const JointEnd* end : {&joint.m_a, &joint.m_b}) meet(end->m_rigidProxy);
+    scope.m_rewind->keepOnly(m_met);
+    for (const btCollisionObject* body : scope.m_rewind->bodies()) m_rigid.indexOf(*body, m_step);
 }
 
 void btFemContactGroup::findRigid()

@@ -12,6 +12,7 @@
 #include "bullet_bridge/rigid/bullet_rows.h"
 #include "bullet_bridge/rigid/rebounds.h"
 #include "bullet_bridge/rigid/rigid_contacts.h"
+#include "bullet_bridge/rigid/rigid_rewind.h"
 #include "bullet_bridge/rigid/solver_bodies.h"
 #include "bullet_fem/btFemSolverInfo.h"
 #include "plugin/joints/btFemWeldBreaker.h"
@@ -41,6 +42,7 @@ public:
         bullet_fem::RigidPhase m_phase;
         btCollisionObject* const* m_island = nullptr;  ///< phase `solving`: the objects that Bullet solves
         int m_islandCount = 0;
+        bullet_fem::RigidRewind* m_rewind = nullptr;  ///< instead of them: islands put back; those in contact stay so
     };
 
     /// Call at the start of a step of `step` [s].
@@ -151,6 +153,7 @@ private:
     bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
     bullet_fem::BulletRows m_bulletRows;
+    std::vector<const btCollisionObject*> m_met;  // scratch: rigid objects in contact or held
     bullet_fem::Rebounds m_rebounds;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;

@@ -7,6 +7,7 @@
 
 #include "bullet_bridge/rigid/world_objects.h"
 #include "bullet_fem/fem/batch/batch_memory.h"
+#include "plugin/coupling/btFemRewindSolver.h"
 #include "plugin/registry/btFemBodyRegistry.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/stages/btFemContactGroup.h"
@@ -37,7 +38,11 @@ public:
     void noteBeforeSolve(const btCollisionObject& object) { m_group.noteBeforeSolve(object); }
 
     /// See ArticulatedBodies::assumeForcesGiven.
-    void assumeForcesGiven(const bullet_fem::Vec3& gravity) { m_group.assumeForcesGiven(gravity); }
+    void assumeForcesGiven(const bullet_fem::Vec3& gravity)
+    {
+        m_canRewind = false;
+        m_group.assumeForcesGiven(gravity);
+    }
 
     /// Call within the rigid solver, before it sets up a group of islands: solves the free motion of the FEM bodies
     /// among `bodies`, and collects their contacts. Returns null if the group cannot be solved together: there are no
@@ -63,6 +68,8 @@ public:
 private:
     void selectMoving(double step);
     void selectUnsolved(double step);
+    void noteRigid();
+    bool rewindRigid(double step);
     void finishMotions(double step);
     void readChanges(btFemBodyRecord& record);
     template <class Task>
@@ -81,6 +88,9 @@ private:
     btFemFreeMotion m_freeMotion;
     btFemContactGroup m_group;
     btFemSplitter m_splitter;
+    bullet_fem::RigidRewind m_rewind;
+    btFemRewindSolver m_rewindSolver;
+    bool m_canRewind = true;                 // Bullet's world leaves forces on the bodies
     std::vector<btFemBodyRecord*> m_due;     // bodies whose prediction or free motion is due
     std::vector<btFemBodyRecord*> m_active;  // bodies whose free motion is solved
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]

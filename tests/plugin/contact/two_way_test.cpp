@@ -57,8 +57,7 @@ TEST_P(RigidDroppedOnSoft, StaysOnTopAndTheGroundGetsTheWholeMomentum)
     EXPECT_NEAR(gained, groundImpulse - given, 1e-5 * given);
     EXPECT_NEAR(stoneForce, -settings.m_mass * kGravity, 0.01 * settings.m_mass * kGravity);
     EXPECT_GT(stone.getCenterOfMassPosition().z(), 0.55);  // its lower face was at .5, less what the slab yields
-    // The stone has its reaction already, and gets gravity at the start of the next step.
-    EXPECT_NEAR(stone.getLinearVelocity().z(), kStep * kGravity, 0.05);
+    EXPECT_LT(stone.getLinearVelocity().length(), 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(MassRatios, RigidDroppedOnSoft, testing::Values(0.01, 0.1, 1.0),

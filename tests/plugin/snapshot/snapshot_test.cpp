@@ -311,7 +311,8 @@ TEST_P(Snapshot, CopiesContinueBitForBitWithForgottenFactors)
 }
 
 // In contacts between rigid bodies Bullet stores warm starts, which cannot be restored. BulletState clears them in both
-// runs, so that both continue without. With SOLVER_RANDMIZE_ORDER the rigid solver uses random numbers, too.
+// runs, so that both continue without. With SOLVER_RANDMIZE_ORDER the rigid solver uses random numbers, but not for
+// islands that are solved with FEM bodies.
 TEST_P(Snapshot, RigidContactsContinueBitForBitOnceCleared)
 {
     m_scene.addTower();
@@ -334,8 +335,7 @@ TEST_P(Snapshot, RigidContactsContinueBitForBitOnceCleared)
     };
     const std::vector<double> remembered = m_scene.run(60), bits = runAgain(seed);
     EXPECT_FALSE(bits == remembered);
-    EXPECT_FALSE(runAgain(seed + 1) == bits);
-    EXPECT_TRUE(runAgain(seed) == bits);
+    EXPECT_TRUE(runAgain(seed + 1) == bits);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Snapshot,
