@@ -57,8 +57,9 @@ bool areEqual(const FreeMotion& a, const FreeMotion& b)
 {
     const auto variation = [](const FreeMotion& motion)
     { return motion.m_body->m_workspace.scratch().m_stepVariation; };
-    const auto isHeld = [](const FreeMotion& motion) { return motion.m_body->m_loads.m_isHeld; };
-    return areJobsEqual(a, b) && variation(a) == variation(b) && isHeld(a) == isHeld(b);
+    const StepLoads &loadsA = a.m_body->m_loads, &loadsB = b.m_body->m_loads;
+    return areJobsEqual(a, b) && variation(a) == variation(b) && loadsA.m_isHeld == loadsB.m_isHeld &&
+           loadsA.m_isInContact == loadsB.m_isInContact;
 }
 bool areEqual(const ImpulseResponse& a, const ImpulseResponse& b)
 {

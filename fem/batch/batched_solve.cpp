@@ -79,7 +79,7 @@ public:
         removeMotion(m_arrays.masses(), m_momenta, elastic, elastic);
         scaleVectors(m_coefficients.m_damping * h + beta, elastic, w, nodes());
         if (!scratch(0).m_isTurned)
-            addInward(m_arrays.masses(), m_momenta, -m_coefficients.chordStrain(h, beta) * h, w);
+            addInward(m_arrays.masses(), m_momenta, -m_coefficients.chordStrain(body(0), h, beta) * h, w);
         const double tension = m_settings.m_tension ? m_coefficients.stiffness() * h * h : 0;
         BatchElementPass pass = {m_arrays.m_x.get(), w, 1, tension, {}, {}, {}};
         for (int b = 0; b < kBatchWidth; ++b)

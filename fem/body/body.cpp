@@ -26,6 +26,7 @@ StepScratch::StepScratch(const BodyModel& model)
       m_increment(model.nodeCount()),
       m_residual(model.nodeCount()),
       m_momentum(model.mesh()),
+      m_led(model.mesh()),
       m_solver(model.nodeCount()),
       m_newton(model.shape().m_materials.isNonlinear() ? static_cast<std::size_t>(model.nodeCount()) : 0),
       m_reactions(model),

@@ -18,6 +18,14 @@ inline Mat3 boundedInverse(const Mat3& inertia, double rounding)
     return inverse(inertia + Mat3::diagonal(1e-14 * size));
 }
 
+/// Share of a component's radius of gyration [-]: fixed nodes whose lever about an axis is shorter have no moment about
+/// it, and do not turn the component about it.
+constexpr double kShortestLever = 1e-3;
+
+/// The spin of masses with this inertia that has the angular momentum L, but for axes about which they have less than
+/// `least` [kg m2].
+Vec3 spinOf(const Mat3& inertia, const Vec3& L, double least);
+
 /// Calls add(component, i) for every node, in order. Consecutive nodes mostly belong to one component, whose sums then
 /// stay in registers instead of waiting for memory.
 template <class Component, class Add>

@@ -33,10 +33,17 @@ struct StepCoefficients
     double stiffness() const { return kMin + (1 - kMin) * m_damping; }  ///< coefficient c of h^2 K', h^2 T in A
     double smoothing() const { return 2 * kMin * (1 - m_damping); }     ///< coefficient d of the unresolved part
 
-    /// Apparent strain of a rigid rotation by phi = h W along chords, as a multiple of h W x (W x r) [s]: v grows by h
-    /// W^2 / 2 as seen at y, and e is -h W^2, so half of the velocity w + e is no strain. For s = 0, y is longer than x
-    /// by phi^2 / 8, and c - 1/8 of the length is no strain; Euler's step has no such length term.
-    double chordStrain(double h, double beta) const { return (1 - m_damping) * (kMin - 0.125) * h + 0.5 * beta; }
+    /// Apparent strain of a rotation by phi = h W along chords, as a multiple of h W x (W x r) [s]: e is h W x (W x r)
+    /// and w half of it outward, which is no strain; nor is the length of y, beyond that of x by ((1 - theta) phi)^2
+    /// / 2. Bodies in contact that fixed nodes do not turn keep the length of s = 1, without which balls roll too fast.
+    double chordStrain(const Body& body, double h, double beta) const
+    {
+        const bool mayRoll = body.m_loads.m_isInContact && !body.m_workspace.scratch().m_led.turns();
+        const double before = 1 - theta();
+        const double length =
+            mayRoll ? (1 - m_damping) * (kMin - 0.125) : stiffness() - 0.5 * (m_damping + before * before);
+        return length * h + 0.5 * beta;
+    }
 
     static constexpr double kMin = 0.375;
 };

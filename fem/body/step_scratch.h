@@ -7,6 +7,7 @@
 #include "bullet_fem/fem/body/body.h"
 #include "fem/body/actuation.h"
 #include "fem/body/conjugate_gradients.h"
+#include "fem/body/led_motion.h"
 #include "fem/body/rigid_momentum.h"
 #include "fem/body/support_reactions.h"
 #include "fem/common/aligned_array.h"
@@ -48,7 +49,7 @@ struct StepScratch
     explicit StepScratch(const BodyModel& model);
 
     std::vector<Vec3> m_velocity;  ///< velocities during the step [m/s]
-    /// Kick positions, where the forces of the step act: x + (1 - theta) h v, with the target velocity at fixed nodes
+    /// Kick positions, where the forces of the step act: x + (1 - theta) h v; fixed nodes on the way to their targets
     /// [m].
     std::vector<Vec3> m_kickPosition;
     std::vector<Vec3> m_kickVelocity;  ///< velocities there before the forces act, fixed nodes' at the begin [m/s]
@@ -66,6 +67,7 @@ struct StepScratch
     std::vector<Vec3> m_residual;      ///< residual of this step's impulse responses [kg m/s]
     bool m_hasResidual = false;        ///< false: m_residual is unused and counts as zero
     RigidMomentum m_momentum;          ///< momenta prescribed for every connected component
+    LedMotion m_led;                   ///< rigid motion of the fixed nodes
     Actuation m_actuation;             ///< linearized actuators of this step
     /// Learnt in contact: A^-1 at the surface is about this times the warped A0^-1 [-], > 0.
     double m_complianceScale = 1;

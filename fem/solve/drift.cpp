@@ -25,6 +25,23 @@ void takeOutsideChange(Body& body, double step, std::vector<Vec3>& velocity)
     for (std::size_t i = 0; i < change.size(); ++i) velocity[i] -= change[i];
 }
 
+// Gives fixed nodes the velocities of free ones that move with them: targets are mean velocities, to which a step with
+// theta < 1 adds 1 - theta times their change at its ends. They move to y with m_drift, and on to the targets.
+void leadFixedNodes(Body& body, double first)
+{
+    const BodyState& s = body.m_state;
+    StepScratch& scratch = body.m_workspace.scratch();
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    for (std::size_t i = 0; i < s.m_fixed.size(); ++i)
+    {
+        if (!s.m_fixed[i] || scratch.m_momentum.isMovable(componentOf[i])) continue;
+        const Vec3 change = body.m_loads.m_targetVelocity[i] - s.m_v[i];
+        scratch.m_kickVelocity[i] += first * change;
+        scratch.m_velocity[i] += first * change;
+        scratch.m_drift[i] -= (1 - first) * change;
+    }
+}
+
 // Positions along chords.
 void moveOn(double time, const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& end)
 {
@@ -43,16 +60,46 @@ void beginDrift(Body& body, const StepSettings& settings)
     scratch.m_isStrained = !body.m_loads.m_priorVelocity.empty();
     if (scratch.m_isStrained) takeOutsideChange(body, settings.m_step, v);
     scratch.m_isTurned = !body.m_loads.m_isHeld;
+    scratch.m_led.find(body.m_model->mesh(), s, body.m_loads, settings.m_step);
+    std::vector<Vec3>& end = scratch.m_velocity;
+    for (std::size_t i = 0; i < v.size(); ++i) end[i] = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : v[i];
     if (!(first > 0))
     {
         y = s.m_x;
         return;
     }
-    for (std::size_t i = 0; i < v.size(); ++i) moving[i] = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : v[i];
-    if (!scratch.m_isTurned) return moveOn(first * settings.m_step, s.m_x, moving, y);
+    moving = end;
     scratch.m_momentum.measure(body, settings.m_step, s.m_x, moving);
-    scratch.m_momentum.advance(body, first * settings.m_step, {s.m_x, moving, v}, y, &v);
-    if (scratch.m_isStrained) scratch.m_momentum.turnElastic(body, scratch.m_strained);
+    leadFixedNodes(body, first);
+    if (!scratch.m_isTurned)
+        moveOn(first * settings.m_step, s.m_x, moving, y);
+    else
+    {
+        scratch.m_momentum.advance(body, first * settings.m_step, {s.m_x, moving, v}, y, &v);
+        if (scratch.m_isStrained) scratch.m_momentum.turnElastic(body, scratch.m_strained);
+    }
+    for (std::size_t i = 0; i < v.size(); ++i)
+        if (!s.m_fixed[i]) end[i] = v[i];
+}
+
+void removeRigidVelocity(const Body& body, std::vector<Vec3>& velocity)
+{
+    const StepScratch& scratch = body.m_workspace.scratch();
+    scratch.m_momentum.removeRigidVelocity(body, velocity);
+    if (!scratch.m_led.turns()) return;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+        velocity[i] -= scratch.m_led.velocityAt(componentOf[i], scratch.m_kickPosition[i]);
+}
+
+void addInward(const Body& body, double factor, std::vector<Vec3>& change)
+{
+    const StepScratch& scratch = body.m_workspace.scratch();
+    if (!scratch.m_isTurned) scratch.m_momentum.addInward(body, factor, change);
+    if (!scratch.m_led.turns()) return;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] += factor * scratch.m_led.inwardAt(componentOf[i], scratch.m_kickPosition[i]);
 }
 
 void driftByOutsideChange(Body& body, const StepSettings& settings)
@@ -104,6 +151,8 @@ void endDrift(Body& body, const StepSettings& settings, double share)
     }
     end = scratch.m_velocity;
     for (std::size_t i = 0; i < end.size() && share > 0; ++i) end[i] -= share * unresolved[i];
+    for (std::size_t i = 0; i < end.size(); ++i)
+        if (body.m_state.m_fixed[i]) end[i] = body.m_loads.m_targetVelocity[i];
     if (scratch.m_isTurned)
         scratch.m_momentum.advance(body, second, {scratch.m_kickPosition, scratch.m_velocity, end}, x,
                                    &body.m_state.m_v);

@@ -11,10 +11,18 @@ namespace bullet_fem
 /// velocities that they cause. Both parts turn movable components exactly (RigidMomentum::advance()). All functions
 /// write to the body's scratch.
 
-/// Kick positions y and velocities: x and v after the share 1 - theta of the step without forces; fixed nodes move with
-/// their target velocities. Without the strain of an external change of velocities, which acts as impulses m_strained /
+/// Kick positions y and velocities: x and v after the share 1 - theta of the step without forces; fixed nodes move
+/// towards their targets. Without the strain of an external change of velocities, which acts as impulses m_strained /
 /// m at y.
 void beginDrift(Body& body, const StepSettings& settings);
+
+/// Removes the rigid motions of the components at y from velocities [m/s]; of those that hang on fixed nodes or are led
+/// by them, relative to these.
+void removeRigidVelocity(const Body& body, std::vector<Vec3>& velocity);
+
+/// Adds factor W x (W x r), with the spin W of the rigid motion, at the nodes of components that move along chords: of
+/// those that fixed nodes lead, and all in bodies that are held.
+void addInward(const Body& body, double factor, std::vector<Vec3>& change);
 
 /// Computes m_drift, the motion beyond theta h times the end velocities: that to y, and the arcs along which nodes turn
 /// from there with the momenta prescribed by the loads.

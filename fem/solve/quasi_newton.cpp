@@ -9,6 +9,7 @@
 #include "fem/body/step_coefficients.h"
 #include "fem/body/step_scratch.h"
 #include "fem/elements/model_elements.h"
+#include "fem/solve/drift.h"
 
 namespace bullet_fem
 {
@@ -37,9 +38,9 @@ void QuasiNewton::correct(const ConjugateGradientStop& stop, SolveReport& report
     corrections.m_tolerance = std::max(stop.m_tolerance, kInexact);
     corrections.m_steady = false;
     newton.m_elastic = scratch.m_kickVelocity;
-    scratch.m_momentum.removeRigidVelocity(m_body, newton.m_elastic);
+    removeRigidVelocity(m_body, newton.m_elastic);
     std::fill(newton.m_chord.begin(), newton.m_chord.end(), Vec3());
-    if (!scratch.m_isTurned) scratch.m_momentum.addInward(m_body, -m_settings.m_step, newton.m_chord);
+    addInward(m_body, -m_settings.m_step, newton.m_chord);
     double left = findResidual();
     for (int k = 0; k < kMaxCorrections && left > kLeftShare * scale && std::isfinite(left); ++k)
     {
@@ -69,8 +70,9 @@ double QuasiNewton::findResidual()
     for (std::size_t i = 0; i < z.size(); ++i)
     {
         const Vec3 &dv = scratch.m_increment[i], &v = newton.m_elastic[i], &chord = newton.m_chord[i];
-        z[i] = scratch.m_kickPosition[i] + h * (c.m_damping * v + c.stiffness() * dv) + c.chordStrain(h, 0) * chord;
-        w[i] = beta * (v + dv) + c.chordStrain(0, beta) * chord;
+        z[i] = scratch.m_kickPosition[i] + h * (c.m_damping * v + c.stiffness() * dv) +
+               c.chordStrain(m_body, h, 0) * chord;
+        w[i] = beta * (v + dv) + c.chordStrain(m_body, 0, beta) * chord;
         r[i] = {};
     }
     prepareWarpedSystem(m_body, m_settings, z, w, r);

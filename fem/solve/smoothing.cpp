@@ -7,6 +7,7 @@
 
 #include "fem/body/step_coefficients.h"
 #include "fem/body/step_scratch.h"
+#include "fem/solve/drift.h"
 
 namespace bullet_fem
 {
@@ -46,9 +47,9 @@ bool findChange(Body& body, const StepSettings& settings)
     if (!(coefficients.smoothing() > 0)) return false;
     StepScratch& scratch = body.m_workspace.scratch();
     std::vector<Vec3>& d = scratch.m_increment;
-    for (std::size_t i = 0; i < d.size(); ++i)
-        d[i] = body.m_state.m_fixed[i] ? Vec3() : scratch.m_velocity[i] - scratch.m_kickVelocity[i];
-    if (!scratch.m_isTurned) scratch.m_momentum.addInward(body, -settings.m_step, d);
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = scratch.m_velocity[i] - scratch.m_kickVelocity[i];
+    addInward(body, -settings.m_step, d);
+    scratch.m_led.removeChange(body.m_model->mesh().nodeComponent(), d);
     scratch.m_momentum.removeMotion(body, d);
     return std::sqrt(squaredMomenta(body, d)) > noise(body, settings);
 }

@@ -97,8 +97,6 @@ public:
         m_stop = stopOf(m_settings, kLoadFloor * loadImpulseNorm(), m_motion.m_predicted != nullptr);
         beginDrift(m_body, m_settings);
         m_scratch.m_reactions.noteKick(m_scratch.m_kickVelocity);
-        for (std::size_t i = 0; i < m_scratch.m_velocity.size(); ++i)
-            m_scratch.m_velocity[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] : m_scratch.m_kickVelocity[i];
         if (isActuated())
         {
             beginActuation(m_body, m_settings);
@@ -125,7 +123,7 @@ public:
         bool moving = false;
         for (std::size_t i = 0; i < dv.size(); ++i)
         {
-            dv[i] = m_state.m_fixed[i] ? m_loads.m_targetVelocity[i] - m_scratch.m_kickVelocity[i] : Vec3();
+            dv[i] = m_state.m_fixed[i] ? m_scratch.m_velocity[i] - m_scratch.m_kickVelocity[i] : Vec3();
             moving = moving || dot(dv[i], dv[i]) > 0;
         }
         if (moving)
@@ -247,11 +245,10 @@ private:
         const double share = m_coefficients.m_damping * m_settings.m_step + beta;
         std::vector<Vec3>&elastic = m_scratch.m_solver.m_Ap, &viscous = m_scratch.m_increment;
         elastic = m_scratch.m_kickVelocity;
-        m_scratch.m_momentum.removeRigidVelocity(m_body, elastic);
+        removeRigidVelocity(m_body, elastic);
         for (std::size_t i = 0; i < elastic.size(); ++i) viscous[i] = share * elastic[i];
-        if (!m_scratch.m_isTurned)
-            m_scratch.m_momentum.addInward(
-                m_body, -m_coefficients.chordStrain(m_settings.m_step, beta) * m_settings.m_step, viscous);
+        const double chord = m_coefficients.chordStrain(m_body, m_settings.m_step, beta) * m_settings.m_step;
+        addInward(m_body, -chord, viscous);
         return elastic;
     }
 

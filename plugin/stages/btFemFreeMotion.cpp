@@ -35,11 +35,11 @@ void clearReport(btFemBodyRecord& record)
     record.m_reports.m_step = report;
 }
 
-// True if the body had contacts or joints in the last step, or has anchors or joints now.
-bool isHeld(const btFemBodyRecord& record)
+// True if the body had joints in the last step, or has anchors or joints now.
+bool hasJoints(const btFemBodyRecord& record)
 {
-    return record.m_reports.m_contacts.size() > 0 || record.m_reports.m_anchors.size() > 0 ||
-           record.m_softBody->m_anchors.size() > 0 || record.m_softBody->m_joints.size() > 0;
+    return record.m_reports.m_anchors.size() > 0 || record.m_softBody->m_anchors.size() > 0 ||
+           record.m_softBody->m_joints.size() > 0;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ bool beginFreeMotion(btFemBodyRecord& record, double worldStep)
     if (!record.isFem() || !record.m_softBody->isActive() || !arraysAsSetUp(record.fem())) return false;
     // Full numerical damping while penetrating: a body that is pushed out must not swing back.
     record.fem().m_body.m_loads.m_leastDamping = wasDeep ? 1 : 0;
-    record.fem().m_body.m_loads.m_isHeld = wasDeep;
+    record.fem().m_body.m_loads.m_isHeld = record.fem().m_body.m_loads.m_isInContact = wasDeep;
     record.m_work.m_lastStep = bodyStep(record, worldStep);
     if (!isUsableStep(record.m_work.m_lastStep))
     {
@@ -99,7 +99,7 @@ void btFemFreeMotion::dampTouching(const std::vector<btFemBodyRecord*>& touching
         const double damping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_numericalDamping));
         if (loads.m_isHeld && !(m_info.m_contactDamping > damping)) continue;
         loads.m_leastDamping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_contactDamping));
-        loads.m_isHeld = true;
+        loads.m_isHeld = loads.m_isInContact = true;
         m_due.push_back(record);
     }
     if (!m_due.empty()) solveDue(false);
@@ -166,10 +166,12 @@ void btFemFreeMotion::prepare(btFemBodyRecord& record) const
     FemSoftBody& fem = record.fem();
     if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
     StepLoads& loads = fem.m_body.m_loads;
-    if (isHeld(record))
+    const bool hadContacts = record.m_reports.m_contacts.size() > 0;
+    if (hadContacts || hasJoints(record))
     {
         loads.m_leastDamping = std::max(loads.m_leastDamping, static_cast<double>(m_info.m_contactDamping));
         loads.m_isHeld = true;
+        loads.m_isInContact = loads.m_isInContact || hadContacts;
     }
     record.m_work.m_staleness = staleness(record, record.m_work.m_lastStep);
     if (record.m_work.m_staleness > 1) record.m_reports.m_step.m_flags |= BT_FEM_STALE_FACTOR;

@@ -79,8 +79,11 @@ struct StepLoads
     /// as impulses. Empty: no change, or the change acts within one step together with the forces.
     std::vector<Vec3> m_priorVelocity;
     /// In contact or held: the nodes move along chords, as contacts and joints expect, instead of turning exactly with
-    /// their body (docs/theory.md, Contact in the step).
+    /// their body (docs/theory.md, Chords).
     bool m_isHeld = false;
+    /// In contact, and m_isHeld: the length that chords add in a step with numerical damping counts as strain
+    /// (docs/theory.md, Chords).
+    bool m_isInContact = false;
     double m_leastDamping = 0;  ///< lower bound of StepSettings::m_numericalDamping for the body [-], in [0, 1]
 };
 
