@@ -22,11 +22,11 @@ using namespace bullet_fem;
 const char* const g_legend = R"(
 number     h^2 E / (rho e^2), h 1/60 s, 1000 kg/m3, nu .3, beta .005 s; e is the edge of a cell
 bar        iterations of the free motion, most of the first four steps of a bar that is released from an arc of 30 degrees
-jaws       a cube of 4 x 4 x 4 cells, without gravity or friction, between jaws that close by 1 % in a second
+jaws       a cube of 4 x 4 x 4 cells between jaws without friction that close by 1 % in a second; gravity as --gravity says
 solver     ContactSolver alone, in double precision; swap, coupled: the plug-in in a Bullet world
 rounds     outer iterations a step, mean and most
 sweeps, CG sweeps, and conjugate gradient iterations of the corrective solves, a step, mean and most
-force      over E A .01, over the weight at rest; fastest: largest speed of a node over the jaws'
+force      of the upper jaw over E A .01, of the plane over the weight; fastest: largest speed of a node over the jaws'
 rest       the cube on a plane in the second second, the swap alone; the largest soft cubes still swing then, also between jaws
 )";
 
@@ -37,14 +37,14 @@ struct Row
     CubeFigures m_solver, m_swap, m_coupled, m_rest;
 };
 
-Row measure(const StiffnessCase& of)
+Row measure(const StiffnessCase& of, double gravity)
 {
     print(std::cerr, "E %.0e Pa, e %g m ...\n", of.m_young, of.m_edge);
     return {of,
             releaseBentBar(of),
             pressBySolver(of),
-            pressInWorld(of, BenchmarkLine::swap),
-            pressInWorld(of, BenchmarkLine::coupled),
+            pressInWorld(of, BenchmarkLine::swap, gravity),
+            pressInWorld(of, BenchmarkLine::coupled, gravity),
             restOnPlane(of)};
 }
 
@@ -126,6 +126,7 @@ nlohmann::json toJson(const std::vector<Row>& rows)
 int main(int argc, char** argv)
 {
     std::vector<double> moduli = {1e4, 1e5, 1e6, 1e7, 1e8, 1e9}, edges = {1e-3, 1e-2, 0.1, 1};
+    double gravity = 0;
     std::string jsonFile;
     CLI::App app("Measures iterations and errors over the dimensionless stiffness", "bulletfem_bench_stiffness");
     app.add_option("--young", moduli, "Young's moduli [Pa]")
@@ -135,6 +136,9 @@ int main(int argc, char** argv)
     app.add_option("--edges", edges, "edges of a cell [m]")
         ->delimiter(',')
         ->check(CLI::Range(1e-4, 10.0))
+        ->capture_default_str();
+    app.add_option("--gravity", gravity, "downwards, on the cube between jaws of a world [m/s2]")
+        ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
     app.add_option("--json", jsonFile, "write the results to this file");
     app.footer("Exit code 0 if all ran, another if an option is wrong or a file cannot be written.");
@@ -146,13 +150,13 @@ int main(int argc, char** argv)
         const MachineInfo machine = readMachineInfo(1);
         std::vector<Row> rows;
         for (const double edge : edges)
-            for (const double young : moduli) rows.push_back(measure({young, edge}));
+            for (const double young : moduli) rows.push_back(measure({young, edge}, gravity));
         std::stable_sort(rows.begin(), rows.end(),
                          [](const Row& a, const Row& b) { return a.m_case.number() < 0.99 * b.m_case.number(); });
         std::cout << toText(machine) << "\nStiffness, one thread\n\n";
         printTable(rows);
         std::cout << g_legend;
-        json.write(machine, {{"results", toJson(rows)}});
+        json.write(machine, {{"gravity", gravity}, {"results", toJson(rows)}});
         return 0;
     };
     return runProgram("bulletfem_bench_stiffness", run);

@@ -70,11 +70,11 @@ void count(const btFemStepReport& report, CubeFigures& figures)
 
 }  // namespace
 
-CubeFigures pressInWorld(const StiffnessCase& of, BenchmarkLine line)
+CubeFigures pressInWorld(const StiffnessCase& of, BenchmarkLine line, double gravity)
 {
     const double h = StiffnessCase::kStep;
     const JawMotion jaws{JawMotion::kCells * of.m_edge};
-    BenchmarkWorld world(btFemSolverInfo(), line, {0, 0, 0});
+    BenchmarkWorld world(btFemSolverInfo(), line, {0, 0, btScalar(-gravity)});
     btSoftBody& cube = addCube(world, jaws.mesh(), of, 0);
     const double half = jaws.m_height;
     const auto place = [&](double side, double time) { return side * (jaws.distanceAt(time) + half); };
