@@ -6,14 +6,14 @@
 #   benchmarks/run.sh                     all, small: about two minutes
 #   benchmarks/run.sh --full              all, as in docs/performance.md: ten minutes to an hour
 #   benchmarks/run.sh --full beam curve   a selection of beam curve kernels factors scaling contact copies
-#                                         crowd games materials motion
+#                                         crowd games materials motion stiffness
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/cmake/install_packages.sh"
 
 build=$root/build/benchmarks # separate from the build folders of other scripts, because options differ
 out=$root/out/benchmarks
-known=(beam curve kernels factors scaling contact copies crowd games materials motion)
+known=(beam curve kernels factors scaling contact copies crowd games materials motion stiffness)
 full=0
 chosen=()
 for argument in "$@"; do
@@ -60,6 +60,7 @@ run_benchmark()
         games) run games games "--share 0.2" "" ;;
         motion) run motion motion "--rates 30,60,120 --reference 240 --cells 6" "" ;;
         materials) run materials materials "" "" ;;
+        stiffness) run stiffness stiffness "--young 1e4,1e7,1e9 --edges 0.001,0.1" "" ;;
         copies) run crowd copies "--free" "--free" ;;
         crowd)
             local small="--bodies 10 --balls 2 --settle 0.3 --steps 10 --awake-only"
