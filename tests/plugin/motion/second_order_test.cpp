@@ -212,7 +212,7 @@ TEST(SecondOrderMomentum, IsKeptInCollisions)
     const double size = norm(before[0].m_linear);
     EXPECT_GT(velocityOf(b).z, 0.5);  // they were in contact
     EXPECT_LT(norm(gained(&Motion::m_linear)), 1e-5 * size);
-    EXPECT_LT(norm(gained(&Motion::m_angular)), 1.5e-4 * size * kBall);
+    EXPECT_LT(norm(gained(&Motion::m_angular)), 1e-5 * size * kBall);
 }
 
 }  // namespace
