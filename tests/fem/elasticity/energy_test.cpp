@@ -189,8 +189,8 @@ INSTANTIATE_TEST_SUITE_P(Damages, ElasticityInversion,
                          [](const auto& damage) { return std::string(damage.param.m_name); });
 
 // A strain eps that stays while the body turns through it, as in a rolling ball: v = (1 + eps) W x X. Its rate in the
-// elements' frames is eps [W] - [W] eps, whose viscous power is beta V rate : C : rate. Frozen rotations see half of the
-// rate in v, and all of it in v without its rigid motion.
+// elements' frames is eps [W] - [W] eps, whose viscous power is beta V rate : C : rate. Frozen rotations see half of
+// the rate in v, and all of it in v without its rigid motion.
 TEST(ElasticityEnergy, DampingOfATurningStrainIsThatOfItsRate)
 {
     const double strain = 0.01, spin = 5, beta = 0.01, young = 1e5;

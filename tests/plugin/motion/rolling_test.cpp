@@ -85,21 +85,18 @@ TEST_P(Incline, IsRolledDownAsFastAsWithSmallSteps)
     EXPECT_LT(velocityOf(ball).x, descent.most() * descent.m_converged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rolling, Incline,
-                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(Descent{10, 1e5, 4.421, 0.94, false},
-                                                          Descent{10, 1e6, 5.305, 0.96, true},
-                                                          Descent{10, 1e7, 5.831, 0.96, true},
-                                                          Descent{20, 1e5, 8.744, 0.92, false},
-                                                          Descent{20, 1e6, 11.41, 0.87, true},
-                                                          Descent{20, 1e7, 12.794, 0.78, true})),
-                         [](const auto& suite)
-                         {
-                             const Descent& descent = std::get<1>(suite.param);
-                             return std::string(couplingName(std::get<0>(suite.param))) + "_" +
-                                    std::to_string(int(descent.m_degrees)) + "_1e" +
-                                    std::to_string(int(std::lround(std::log10(descent.m_youngModulus))));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Rolling, Incline,
+    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                     testing::Values(Descent{10, 1e5, 4.421, 0.94, false}, Descent{10, 1e6, 5.305, 0.96, true},
+                                     Descent{10, 1e7, 5.831, 0.96, true}, Descent{20, 1e5, 8.744, 0.92, false},
+                                     Descent{20, 1e6, 11.41, 0.87, true}, Descent{20, 1e7, 12.794, 0.78, true})),
+    [](const auto& suite)
+    {
+        const Descent& descent = std::get<1>(suite.param);
+        return std::string(couplingName(std::get<0>(suite.param))) + "_" + std::to_string(int(descent.m_degrees)) +
+               "_1e" + std::to_string(int(std::lround(std::log10(descent.m_youngModulus))));
+    });
 
 class Rolling : public testing::TestWithParam<Coupling>
 {
