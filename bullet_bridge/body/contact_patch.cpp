@@ -32,13 +32,15 @@ Vec3 velocityOfCentre(const ContactPatchSide& side, const Vec3& inward)
 MeanMotion meanMotion(const Body& body)
 {
     const BodyState& s = body.m_state;
-    const std::size_t n = s.m_x.size();
-    if (body.m_model->mesh().componentCount() != 1) return {};
-    if (std::find(s.m_fixed.begin(), s.m_fixed.end(), 1) != s.m_fixed.end()) return {};
+    const TetMesh& mesh = body.m_model->mesh();
+    const int n = mesh.nodeCount();
+    if (mesh.componentCount() - mesh.looseCount() != 1) return {};
     double mass = 0;
     Vec3 center, velocity;
-    for (std::size_t i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i)
     {
+        if (mesh.isLoose(i)) continue;
+        if (s.m_fixed[i]) return {};
         mass += s.m_mass[i];
         center += s.m_mass[i] * s.m_x[i];
         velocity += s.m_mass[i] * s.m_v[i];
@@ -47,8 +49,9 @@ MeanMotion meanMotion(const Body& body)
     velocity *= 1 / mass;
     Vec3 angular;
     Mat3 inertia;
-    for (std::size_t i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i)
     {
+        if (mesh.isLoose(i)) continue;
         const Vec3 r = s.m_x[i] - center;
         angular += s.m_mass[i] * cross(r, s.m_v[i]);
         inertia += s.m_mass[i] * (Mat3::diagonal(dot(r, r)) - outer(r, r));

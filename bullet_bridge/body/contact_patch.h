@@ -16,7 +16,7 @@ struct MeanMotion
     Vec3 m_spin;      ///< angular velocity from the angular momentum about the centre of mass [rad/s]
 };
 
-/// Mean motion of a body. Zero if it has several connected components or a fixed node.
+/// Mean motion of a body without its loose nodes. Zero if it has several connected components or a fixed node.
 MeanMotion meanMotion(const Body& body);
 
 /// One side of a contact between two surfaces.

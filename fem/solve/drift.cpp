@@ -144,21 +144,27 @@ void endDrift(Body& body, const StepSettings& settings, double share)
     StepScratch& scratch = body.m_workspace.scratch();
     const double h = settings.m_step, second = h * StepCoefficients(settings, body).theta();
     std::vector<Vec3>&x = body.m_state.m_x, &end = scratch.m_drift, &unresolved = scratch.m_increment;
+    const auto push = [&]
+    {
+        for (std::size_t i = 0; i < x.size() && scratch.m_isPushed; ++i) x[i] += h * scratch.m_push[i];
+    };
     if (!scratch.m_isTurned)
     {
         moveOn(second, scratch.m_kickPosition, scratch.m_velocity, x);
+        push();  // before, as the position correction pays back the angular momentum of its displacement times v*
         if (share > 0) scratch.m_momentum.removeMomentum(body, h, x, unresolved);
     }
     end = scratch.m_velocity;
     for (std::size_t i = 0; i < end.size() && share > 0; ++i) end[i] -= share * unresolved[i];
     for (std::size_t i = 0; i < end.size(); ++i)
         if (body.m_state.m_fixed[i]) end[i] = body.m_loads.m_targetVelocity[i];
-    if (scratch.m_isTurned)
-        scratch.m_momentum.advance(body, second, {scratch.m_kickPosition, scratch.m_velocity, end}, x,
-                                   &body.m_state.m_v);
-    else
+    if (!scratch.m_isTurned)
+    {
         body.m_state.m_v = end;
-    for (std::size_t i = 0; i < x.size() && scratch.m_isPushed; ++i) x[i] += h * scratch.m_push[i];
+        return;
+    }
+    scratch.m_momentum.advance(body, second, {scratch.m_kickPosition, scratch.m_velocity, end}, x, &body.m_state.m_v);
+    push();
 }
 
 }  // namespace bullet_fem

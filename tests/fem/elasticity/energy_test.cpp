@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Without loads the energy never grows: from strong deformation, and from flat or inverted elements.
+// Without loads the energy never grows: from strong deformation, and from flat or inverted elements. Viscosity takes of
+// it its power.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -186,6 +187,37 @@ TEST_P(ElasticityInversion, ClampedCubeRecoversInPlace)
 INSTANTIATE_TEST_SUITE_P(Damages, ElasticityInversion,
                          testing::Values(kPoint, kPlane, kLine, kMirrored, kReflected, kOneElement, kRandom),
                          [](const auto& damage) { return std::string(damage.param.m_name); });
+
+// A strain eps that stays while the body turns through it, as in a rolling ball: v = (1 + eps) W x X. Its rate in the
+// elements' frames is eps [W] - [W] eps, whose viscous power is beta V rate : C : rate. Frozen rotations see half of
+// the rate in v, and all of it in v without its rigid motion.
+TEST(ElasticityEnergy, DampingOfATurningStrainIsThatOfItsRate)
+{
+    const double strain = 0.01, spin = 5, beta = 0.01, young = 1e5;
+    const Vec3 size = {1, 1, 1}, middle = 0.5 * size;
+    double lost[2];
+    for (const int damped : {0, 1})
+    {
+        Material material = elasticMaterial(young, 0.3);
+        material.m_stiffnessDamping = damped * beta;
+        StepSettings settings;
+        settings.m_step = 1e-6;
+        settings.m_tolerance = 1e-8;
+        Body body = makeBody(makeBox(size, {3, 3, 3}), material, {}, settings.m_step);
+        for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i)
+        {
+            Vec3& x = body.m_state.m_x[i];
+            const Vec3 X = x - middle, v = cross({0, 0, spin}, X);
+            x = {(1 + strain) * X.x, (1 - strain) * X.y, X.z};
+            body.m_state.m_v[i] = {(1 + strain) * v.x, (1 - strain) * v.y, v.z};
+        }
+        const double before = kineticEnergy(body.m_state);
+        step(body, settings);
+        lost[damped] = (before - kineticEnergy(body.m_state)) / settings.m_step;
+    }
+    const double mu = young / 2.6, rate = 2 * strain * spin;  // of both shear components
+    EXPECT_NEAR(lost[1] - lost[0], beta * 2 * mu * 2 * rate * rate, 0.01 * beta * 4 * mu * rate * rate);
+}
 
 }  // namespace
 }  // namespace bullet_fem

@@ -55,6 +55,15 @@ struct Descent
     double m_degrees, m_youngModulus;
     double m_converged;  // speed after six seconds in steps of 1/1920 s [m/s]
     double m_min;        // its minimum share at 60 Hz
+    bool m_isStiff;      // slowed little by damping
+
+    // Steps along chords widen a ball that turns by a step's angle w h by (w h)^2 / 2, and it rolls down faster by as
+    // much; damping slows soft balls, and steps of .6 rad slow all.
+    double most() const
+    {
+        const double angle = m_converged / kRadius * kStep;
+        return m_isStiff && angle < 0.5 ? 1 + angle * angle / 2 : 1;
+    }
 };
 
 class Incline : public testing::TestWithParam<std::tuple<Coupling, Descent>>
@@ -73,22 +82,21 @@ TEST_P(Incline, IsRolledDownAsFastAsWithSmallSteps)
     btSoftBody& ball = addBall(world, {descent.m_youngModulus, 0.005}, {0, 0, btScalar(kRadius + 1e-4)});
     world.step(360);
     EXPECT_GT(velocityOf(ball).x, descent.m_min * descent.m_converged);
-    EXPECT_LT(velocityOf(ball).x, 1.08 * descent.m_converged);
+    EXPECT_LT(velocityOf(ball).x, descent.most() * descent.m_converged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rolling, Incline,
-                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(Descent{10, 1e5, 4.421, 0.94}, Descent{10, 1e6, 5.305, 0.98},
-                                                          Descent{10, 1e7, 5.831, 0.97}, Descent{20, 1e5, 8.744, 0.93},
-                                                          Descent{20, 1e6, 11.41, 0.86},
-                                                          Descent{20, 1e7, 12.794, 0.78})),
-                         [](const auto& suite)
-                         {
-                             const Descent& descent = std::get<1>(suite.param);
-                             return std::string(couplingName(std::get<0>(suite.param))) + "_" +
-                                    std::to_string(int(descent.m_degrees)) + "_1e" +
-                                    std::to_string(int(std::lround(std::log10(descent.m_youngModulus))));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Rolling, Incline,
+    testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                     testing::Values(Descent{10, 1e5, 4.421, 0.94, false}, Descent{10, 1e6, 5.305, 0.96, true},
+                                     Descent{10, 1e7, 5.831, 0.96, true}, Descent{20, 1e5, 8.744, 0.92, false},
+                                     Descent{20, 1e6, 11.41, 0.87, true}, Descent{20, 1e7, 12.794, 0.78, true})),
+    [](const auto& suite)
+    {
+        const Descent& descent = std::get<1>(suite.param);
+        return std::string(couplingName(std::get<0>(suite.param))) + "_" + std::to_string(int(descent.m_degrees)) +
+               "_1e" + std::to_string(int(std::lround(std::log10(descent.m_youngModulus))));
+    });
 
 class Rolling : public testing::TestWithParam<Coupling>
 {

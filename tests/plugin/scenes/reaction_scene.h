@@ -33,11 +33,12 @@ public:
     }
 
     /// After the step: change of momentum / h - gravity - reactions - contacts - anchors; moments about the origin.
+    /// Mass damping [1/s] acts on velocities of the nodes, by default those at the end.
     struct Error
     {
         Vec3 m_force, m_moment;
     };
-    Error error(double massDamping = 0)
+    Error error(double massDamping = 0, const std::vector<Vec3>& velocity = {})
     {
         addMomentum(1);
         Error e = {(1 / double(kStep)) * m_linear, (1 / double(kStep)) * m_angular};
@@ -49,8 +50,9 @@ public:
         for (int i = 0; i < m_body.m_nodes.size(); ++i)
         {
             const btSoftBody::Node& node = m_body.m_nodes[i];
+            const Vec3 damped = velocity.empty() ? vec3(node.m_v) : velocity[i];
             subtract(0.5 * (vec3(node.m_q) + vec3(node.m_x)),
-                     m_mass[i] * (Vec3{0, 0, -kGravity} - massDamping * vec3(node.m_v)));
+                     m_mass[i] * (Vec3{0, 0, -kGravity} - massDamping * damped));
         }
         const btFemReaction held = m_fem.reaction(&m_body, btVector3(0, 0, 0));
         e.m_force = e.m_force - vec3(held.m_force);
