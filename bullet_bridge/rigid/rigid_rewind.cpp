@@ -99,6 +99,7 @@ void RigidRewind::note(const btSoftBody& soft)
     std::sort(m_bodies.begin(), m_bodies.end(), [](const Noted& a, const Noted& b) { return a.m_id < b.m_id; });
     indexBodies();
     noteConstraints();
+    m_impulses.note(*m_dispatcher);
 }
 
 void RigidRewind::forget()
@@ -108,6 +109,7 @@ void RigidRewind::forget()
     m_bodies.clear();
     m_byBody.clear();
     m_known.clear();
+    m_impulses.forget();
     m_back.clear();
 }
 
@@ -325,6 +327,7 @@ void RigidRewind::listIsland()
     };
     for (btPersistentManifold* manifold : m_allManifolds)
         if (isBack(manifold->getBody0()) || isBack(manifold->getBody1())) m_manifolds.push_back(manifold);
+    m_impulses.set(m_manifolds);
     for (const Constraint& known : m_known)
     {
         btTypedConstraint& constraint = *known.m_constraint;
@@ -335,11 +338,9 @@ void RigidRewind::listIsland()
     }
 }
 
-// The world's own solver may use one direction of friction, and leave the impulse along the second as it is.
 void RigidRewind::move()
 {
-    for (btPersistentManifold* manifold : m_manifolds)
-        for (int p = 0; p < manifold->getNumContacts(); ++p) manifold->getContactPoint(p).m_appliedImpulseLateral2 = 0;
+    m_impulses.finish(m_manifolds);
     for (std::size_t k = 0; k < m_bodies.size(); ++k)
         if (m_bodies[k].m_isBack && m_bodies[k].m_body->isActive())
             m_bodies[root(static_cast<int>(k))].m_isWoken = true;

@@ -6,6 +6,7 @@
 
 #include "BulletDynamics/ConstraintSolver/btTypedConstraint.h"
 #include "LinearMath/btTransform.h"
+#include "bullet_bridge/rigid/manifold_impulses.h"
 #include "bullet_bridge/rigid/sorted_index.h"
 
 class btBroadphaseInterface;
@@ -69,8 +70,8 @@ public:
 private:
     struct State
     {
-        btTransform m_transform;
-        btVector3 m_linear, m_angular, m_force, m_torque;
+        btTransform m_transform = btTransform::getIdentity();
+        btVector3 m_linear{0, 0, 0}, m_angular{0, 0, 0}, m_force{0, 0, 0}, m_torque{0, 0, 0};
     };
 
     struct Noted
@@ -78,12 +79,12 @@ private:
         btRigidBody* m_body = nullptr;
         int m_id = 0;  // of the broadphase
         State m_before, m_after;
-        btVector3 m_linearByCallbacks, m_angularByCallbacks;  // velocity changes since the solver
-        btVector3 m_explained;                                // linear impulse by contacts and known constraints [N s]
-        btScalar m_explainedParts = 0;                        // sum of the norms of these impulses [N s]
-        btScalar m_pushed = 0;   // largest displacement that Bullet may have corrected a penetration by [m]
-        int m_parent = 0;        // union-find
-        bool m_isMoved = false;  // by Bullet: it is awake
+        btVector3 m_linearByCallbacks{0, 0, 0}, m_angularByCallbacks{0, 0, 0};  // velocity changes since the solver
+        btVector3 m_explained{0, 0, 0};  // linear impulse by contacts and known constraints [N s]
+        btScalar m_explainedParts = 0;   // sum of the norms of these impulses [N s]
+        btScalar m_pushed = 0;           // largest displacement that Bullet may have corrected a penetration by [m]
+        int m_parent = 0;                // union-find
+        bool m_isMoved = false;          // by Bullet: it is awake
         bool m_isBad = false, m_isBack = false, m_isWoken = false;
     };
 
@@ -117,6 +118,7 @@ private:
     std::vector<Noted> m_bodies;
     SortedIndex<const btCollisionObject*> m_byBody;
     std::vector<Constraint> m_known;
+    ManifoldImpulses m_impulses;  // at the end of the last step
     std::vector<btPersistentManifold*> m_allManifolds;
     std::vector<unsigned char> m_keeps;  // per root
     std::vector<btCollisionObject*> m_back;

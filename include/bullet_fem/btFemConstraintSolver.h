@@ -12,15 +12,16 @@
 class btFemIslandSolver;
 class btFemSoftBodySolver;
 
-/// Bullet's rigid-body solver, with contacts and joints of FEM bodies swept together with those between rigid bodies
-/// (monolithic coupling), so that stacks of rigid on soft on rigid bodies converge within a step, come to rest and
-/// sleep. Give it to the world's constructor in place of btSequentialImpulseConstraintSolver, with the world's
-/// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's
-/// rigid rows are fully warm-started, with friction in two fixed directions, and get as many sweeps as the soft rows.
+/// Bullet's rigid-body solver, which solves islands with FEM bodies as one problem: contacts and joints of FEM bodies
+/// with Bullet's contacts, rolling friction and constraints, so that stacks of rigid on soft on rigid bodies converge
+/// within a step, come to rest and sleep. Give it to the world's constructor in place of
+/// btSequentialImpulseConstraintSolver, with the world's btFemSoftBodySolver. Islands without FEM bodies give bitwise
+/// equal results. In islands with FEM bodies Bullet's contacts are fully warm-started, with friction in two fixed
+/// directions within Coulomb's cone; constraints that override solveConstraintObsolete are not called.
 ///
-/// Without it (staggered coupling) rigid bodies receive the impulses of a step's soft contacts after they have moved.
-/// Momentum is still exact, and so are static reactions, but a rigid body at rest on a soft one reads a velocity of g
-/// h, and stacks whose soft bodies are as heavy as the rigid ones collapse.
+/// Without it the soft body solver does this after Bullet's step, for islands that it can put back to its start, with
+/// the default btContactSolverInfo. Constraints added without disableCollisionsBetweenLinkedBodies it cannot see: rigid
+/// bodies on these receive the impulses of soft bodies after they have moved.
 class BULLETFEM_API btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 {
 public:
