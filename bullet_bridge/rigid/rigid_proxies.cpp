@@ -104,9 +104,10 @@ void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
         m_history.noteBeforeSolve(*body);
 }
 
-void RigidProxies::clear(RigidPhase phase)
+void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
 {
     m_phase = phase;
+    m_rewind = rewind;
     m_rigidProxies.clear();
     m_sources.clear();
     m_byObject.clear();
@@ -148,6 +149,11 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
             m_history.takeBack(*body);
             rigidProxy.m_linearVelocity += step * body->getInvMass() * vec3(body->getTotalForce());
             rigidProxy.m_angularVelocity += step * (rigidProxy.m_inverseInertia * vec3(body->getTotalTorque()));
+            if (const LinkMotion* byBullet = m_rewind ? m_rewind->motionByBullet(object) : nullptr)
+            {
+                rigidProxy.m_linearVelocity = byBullet->m_linear;
+                rigidProxy.m_angularVelocity = byBullet->m_angular;
+            }
         }
         m_sources.back().m_now = {rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
     }

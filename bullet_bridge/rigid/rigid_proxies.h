@@ -8,6 +8,7 @@
 
 #include "bullet_bridge/rigid/articulated_bodies.h"
 #include "bullet_bridge/rigid/rigid_history.h"
+#include "bullet_bridge/rigid/rigid_rewind.h"
 
 namespace bullet_fem
 {
@@ -33,15 +34,17 @@ public:
     /// Notes a body's velocity before Bullet's rigid solver. May be called by several threads at once.
     void noteBeforeSolve(const btCollisionObject& object);
 
-    /// Forgets all rigid proxies.
-    void clear(RigidPhase phase = RigidPhase::moved);
+    /// Forgets all rigid proxies. `rewind`: bodies that it has put back are expected to move as Bullet has moved them;
+    /// must live until the next call.
+    void clear(RigidPhase phase = RigidPhase::moved, const RigidRewind* rewind = nullptr);
 
     /// Index of an object's rigid proxy; -1 if there is none.
     int find(const btCollisionObject& object) const { return m_byObject.find(&object); }
 
     /// Index of an object's rigid proxy, which is made at the first call. `step` is the world's [s]. A dynamic body's
     /// proxy has the predicted velocity without soft bodies: in phase `moved` v + h g plus its support by other rigid
-    /// bodies (see RigidHistory::supportOf), in phase `solving` v plus the effect of all its forces.
+    /// bodies (see RigidHistory::supportOf), in phase `solving` v plus the effect of all its forces, or the velocity
+    /// that Bullet gave it before it was put back.
     int indexOf(const btCollisionObject& object, double step);
 
     /// indexOf() for contacts with a soft body, after its free motion. In phase `moved`, an object with fast relative
@@ -104,6 +107,7 @@ private:
     void rewind(int rigidProxy, double step);
 
     RigidPhase m_phase = RigidPhase::moved;
+    const RigidRewind* m_rewind = nullptr;  // null: none
     std::vector<RigidProxy> m_rigidProxies;
     std::vector<Source> m_sources;
     SortedIndex<const btCollisionObject*> m_byObject;  // m_sources by object

@@ -13,7 +13,7 @@
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btTransformUtil.h"
-#include "bullet_bridge/rigid/rigid_objects.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
 {
@@ -151,6 +151,9 @@ bool RigidRewind::begin(double step)
         noted.m_linearByCallbacks = body.getLinearVelocity() - body.getInterpolationLinearVelocity();
         noted.m_angularByCallbacks = body.getAngularVelocity() - body.getInterpolationAngularVelocity();
     }
+    for (Noted& noted : m_bodies)
+        noted.m_byBullet = {vec3(noted.m_after.m_linear - noted.m_linearByCallbacks),
+                            vec3(noted.m_after.m_angular - noted.m_angularByCallbacks)};
     readConstraints();
     readManifolds();
     for (Noted& noted : m_bodies) checkBody(noted);

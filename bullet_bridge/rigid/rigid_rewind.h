@@ -7,6 +7,7 @@
 #include "BulletDynamics/ConstraintSolver/btTypedConstraint.h"
 #include "LinearMath/btTransform.h"
 #include "bullet_bridge/rigid/manifold_impulses.h"
+#include "bullet_bridge/rigid/rigid_objects.h"
 #include "bullet_bridge/rigid/sorted_index.h"
 
 class btBroadphaseInterface;
@@ -42,6 +43,13 @@ public:
     /// Puts the island of an object back. False if that is impossible: the object is no noted body or part of an
     /// island with links of multibodies, unknown constraints or bodies that the program has moved since.
     bool rewind(const btCollisionObject& object);
+
+    /// The velocity that Bullet's solver gave a body which was put back; null for other objects.
+    const LinkMotion* motionByBullet(const btCollisionObject& object) const
+    {
+        const int k = indexOf(&object);
+        return k >= 0 && m_bodies[k].m_isBack ? &m_bodies[k].m_byBullet : nullptr;
+    }
 
     /// True if the object is a noted body.
     bool isNoted(const btCollisionObject& object) const { return indexOf(&object) >= 0; }
@@ -79,6 +87,7 @@ private:
         btRigidBody* m_body = nullptr;
         int m_id = 0;  // of the broadphase
         State m_before, m_after;
+        LinkMotion m_byBullet;
         btVector3 m_linearByCallbacks{0, 0, 0}, m_angularByCallbacks{0, 0, 0};  // velocity changes since the solver
         btVector3 m_explained{0, 0, 0};  // linear impulse by contacts and known constraints [N s]
         btScalar m_explainedParts = 0;   // sum of the norms of these impulses [N s]

@@ -52,7 +52,7 @@ void btFemContactGroup::collect(const Scope& scope)
     const btFemStopwatch watch;
     m_step = scope.m_step;
     m_records = scope.m_records;
-    m_rigid.clear(scope.m_phase);
+    m_rigid.clear(scope.m_phase, scope.m_rewind);
     clearProblem();
     m_bodies.clear();
     for (btFemBodyRecord* record : m_records)
