@@ -118,52 +118,6 @@ INSTANTIATE_TEST_SUITE_P(Directions, SlidingTray,
                                          TrayCase{"frictionless", {0, 1, 0}, {1, 0, 1}, 0}),
                          [](const auto& suite) { return suite.param.m_name; });
 
-constexpr double kBelt = 1.5;  // speed of the belt [m/s]
-
-// Bullet's belts: a target velocity along the first direction of friction.
-bool runBelt(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int, const btCollisionObjectWrapper*, int,
-             int)
-{
-    point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
-    point.m_lateralFrictionDir1 = btVector3(1, 0, 0);
-    point.m_lateralFrictionDir2 = btVector3(0, 1, 0);
-    point.m_contactMotion1 = btScalar(kBelt);
-    return true;
-}
-
-class Belt : public testing::Test
-{
-protected:
-    Belt() { gContactAddedCallback = runBelt; }
-    ~Belt() override { gContactAddedCallback = nullptr; }
-
-    static std::vector<double> speeds(Coupling coupling, Loaded::Payload payload)
-    {
-        Loaded scene(coupling, payload);
-        scene.m_world.bullet().getSolverInfo().m_solverMode |=
-            SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
-        btRigidBody& ground = scene.m_world.addFloorBox();
-        ground.setCollisionFlags(ground.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
-        const btRigidBody& tray = addLoadedTray(scene);
-        std::vector<double> speeds;
-        for (int k = 0; k < 60; ++k)
-        {
-            scene.m_world.step();
-            speeds.push_back(double(tray.getLinearVelocity().x()));
-        }
-        return speeds;
-    }
-};
-
-TEST_F(Belt, TakesTheTrayAsInBulletsWorld)
-{
-    const std::vector<double> twin = speeds(Coupling::swap, Loaded::Payload::rigid);
-    const std::vector<double> ours = speeds(Coupling::coupled, Loaded::Payload::soft);
-    ASSERT_NEAR(std::fabs(twin.back()), kBelt, 1e-3);
-    EXPECT_NEAR(ours.back(), twin.back(), 2e-3);
-    for (std::size_t k = 3; k < 15; ++k) EXPECT_NEAR(ours[k], twin[k], 0.1 * kBelt) << k;
-}
-
 /// A ball on a heavy plank on the ground that carries a payload, too.
 struct PlankAndBall
 {
@@ -326,6 +280,21 @@ TEST(BulletContacts, LetATowerWithLightPlatesStandAndSleep)
     EXPECT_NEAR(top.z, 5 * (kPlate + Loaded::kEdge) - Loaded::kEdge / 2, 0.02);
 }
 
+// The most dissipative friction within the ellipse: it is nearly that of the rough direction.
+TEST(BulletContacts, BrakeADiagonalSlideMostAlongTheRoughDirection)
+{
+    Loaded scene(Coupling::coupled);
+    scene.m_world.addFloorBox();
+    btRigidBody& tray = addLoadedTray(scene, kMu, {2, 2, 0});
+    tray.setAnisotropicFriction({1, btScalar(0.1), 1});
+    const Vec3 before = momentumOf(scene, tray);
+    scene.m_world.step();
+    const Vec3 friction = momentumOf(scene, tray) - before;
+    const double most = kMu * normalImpulseOn(scene, tray).m_total, length = std::hypot(1, 0.1);
+    EXPECT_NEAR(friction.x, -most / length, 0.01 * most);
+    EXPECT_NEAR(friction.y, -0.01 * most / length, 0.01 * most);
+}
+
 // A pyramid of ten rigid boxes, with a soft cube on top.
 TEST(BulletContacts, LetAPyramidStand)
 {
@@ -342,7 +311,7 @@ TEST(BulletContacts, LetAPyramidStand)
     scene.m_world.step(180);
     EXPECT_TRUE(scene.touches());
     EXPECT_LT(norm(vec3(boxes.back()->getCenterOfMassPosition()) - top), 5e-3);
-    for (const btRigidBody* box : boxes) EXPECT_LT(box->getLinearVelocity().length(), 2e-3);
+    for (const btRigidBody* box : boxes) EXPECT_LT(box->getLinearVelocity().length(), 5e-3);
 }
 
 // Bullet's friction acts at points that are apart by the gap, so that it conserves no angular momentum.
