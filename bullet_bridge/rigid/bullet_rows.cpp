@@ -22,6 +22,10 @@ constexpr double kIsotropic = 1e-4;        // deviation of directions of frictio
 // (btSequentialImpulseConstraintSolver::solveSingleIteration) [N s].
 constexpr double kMaxRollingLoad = 1;
 
+// Added compliance of a joint's rows as a multiple of their own, so that redundant joints share a load: impulses of
+// nearly dependent rows would be arbitrary, and thousands of newtons in a bridge with two joints between planks [-].
+constexpr double kJointSoftness = 1e-4;
+
 double impulseOf(const btSolverConstraint& row)
 {
     return double(btScalar(row.m_appliedImpulse));
@@ -44,6 +48,15 @@ bool targetBeyond(const btSolverConstraint& row, double& beyond)
 double complianceOf(const btSolverConstraint& row)
 {
     return std::max(0.0, double(row.m_cfm) / double(row.m_jacDiagABInv));
+}
+
+// Components of the part of a vector in the plane of d and e, which need not be orthogonal.
+void split(const Vec3& v, const Vec3& d, const Vec3& e, double& first, double& second)
+{
+    const double a = dot(d, d), b = dot(d, e), c = dot(e, e), det = a * c - b * b;
+    const bool isPlane = det > kIsotropic * a * c;
+    first = isPlane ? (c * dot(v, d) - b * dot(v, e)) / det : a > 0 ? dot(v, d) / a : 0;
+    second = isPlane ? (a * dot(v, e) - b * dot(v, d)) / det : !(a > 0) && c > 0 ? dot(v, e) / c : 0;
 }
 
 Vec3 velocityAt(const Vec3& linear, const Vec3& angular, const Vec3& arm)
@@ -130,36 +143,44 @@ void BulletRows::appendContact(const BulletConstraints& bullet, int k, const std
 }
 
 // The cone for Bullet's pyramid. Directions d of anisotropic friction, no unit vectors, span an ellipse, whose axes are
-// the eigenvectors of d1 d1^T + d2 d2^T. Belts run with the motion that a program gave the contact point.
+// the eigenvectors of d1 d1^T + d2 d2^T. Belts run with the motion that a program gave the contact point; if that is
+// not finite, there is no friction.
 void BulletRows::setFriction(const BulletConstraints& bullet, const btSolverConstraint& row, Contact& contact,
                              RigidContact& touch) const
 {
     const btManifoldPoint& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
     touch.m_friction = std::max(0.0, double(row.m_friction));
     if (row.m_frictionIndex + 1 >= bullet.m_friction.size()) return;
-    const Vec3 d = directionOf(bullet.m_friction[row.m_frictionIndex]),
-               e = directionOf(bullet.m_friction[row.m_frictionIndex + 1]);
+    // Bullet scales directions along the axes of bodies, which may tilt them out of the tangent plane.
+    const auto tangential = [&touch](const Vec3& v) { return v - dot(v, touch.m_normal) * touch.m_normal; };
+    const Vec3 d = tangential(directionOf(bullet.m_friction[row.m_frictionIndex])),
+               e = tangential(directionOf(bullet.m_friction[row.m_frictionIndex + 1]));
+    const Vec3 motion = double(point.m_contactMotion1) * d + double(point.m_contactMotion2) * e;
+    if (!isFinite(motion))
+    {
+        touch.m_friction = 0;
+        return;
+    }
     contact.m_first = d;
     contact.m_second = e;
     if (impulseOf(row) > 0)
         touch.m_impulse +=
             contact.m_sign * (double(point.m_appliedImpulseLateral1) * d + double(point.m_appliedImpulseLateral2) * e);
-    touch.m_otherVelocity += contact.m_sign * (double(point.m_contactMotion1) * d + double(point.m_contactMotion2) * e);
+    touch.m_otherVelocity += contact.m_sign * motion;
     const double a = dot(d, d), b = dot(d, e), c = dot(e, e);
     if (std::fabs(a - 1) < kIsotropic && std::fabs(c - 1) < kIsotropic && std::fabs(b) < kIsotropic) return;
     // Larger eigenvalue of the Gram matrix; its eigenvector combines d and e to the larger semi-axis.
     const double half = 0.5 * (a - c), most = 0.5 * (a + c) + std::hypot(half, b);
     const double least = std::max(0.0, a + c - most);
     const Vec3 axis = half >= 0 ? (most - c) * d + b * e : b * d + (most - a) * e;
-    const Vec3 tangent = axis - dot(axis, touch.m_normal) * touch.m_normal;
-    if (!(norm(tangent) > 0))
+    if (!(norm(axis) > 0))
     {
         touch.m_friction = most > 0 ? std::sqrt(most) * touch.m_friction : 0;
         return;
     }
     touch.m_friction *= std::sqrt(most);
     touch.m_aspect = std::sqrt(least / most);
-    touch.m_slipAxis = (1 / norm(tangent)) * tangent;
+    touch.m_slipAxis = (1 / norm(axis)) * axis;
 }
 
 // The rows of one contact are consecutive: about its normal, then about tangents.
@@ -225,6 +246,7 @@ void BulletRows::appendJoints(const BulletConstraints& bullet, const std::vector
             Joint joint;
             joint.m_limit = {};
             joint.m_compliance = complianceOf(row);
+            joint.m_softness = kJointSoftness;
             joint.m_a.m_rigidProxy = a.m_proxy;
             joint.m_b.m_rigidProxy = b.m_proxy;
             joint.m_a.m_jacobian = static_cast<int>(problem.m_jacobians.size());
@@ -273,9 +295,10 @@ void BulletRows::takeBack(const BulletConstraints& bullet, ContactProblem& probl
         btSolverConstraint& row = bullet.m_contacts[contact.m_row];
         row.m_appliedImpulse = btScalar(dot(touch.m_impulse, touch.m_normal));
         if (row.m_frictionIndex + 1 >= bullet.m_friction.size()) continue;
-        const auto along = [&onA](const Vec3& d) { return btScalar(dot(d, d) > 0 ? dot(onA, d) / dot(d, d) : 0); };
-        bullet.m_friction[row.m_frictionIndex].m_appliedImpulse = along(contact.m_first);
-        bullet.m_friction[row.m_frictionIndex + 1].m_appliedImpulse = along(contact.m_second);
+        double first = 0, second = 0;
+        split(onA, contact.m_first, contact.m_second, first, second);
+        bullet.m_friction[row.m_frictionIndex].m_appliedImpulse = btScalar(first);
+        bullet.m_friction[row.m_frictionIndex + 1].m_appliedImpulse = btScalar(second);
     }
     for (std::size_t k = 0; k < m_torsions.size(); ++k)
     {

@@ -10,13 +10,29 @@ namespace bullet_fem
 namespace
 {
 
-// Scales a tangential impulse to the ellipse of anisotropic friction: its larger semi-axis is along the first tangent.
+constexpr int kEllipseIterations = 20;       // maximum number; some six suffice unless a point is near an axis
+constexpr double kEllipseTolerance = 1e-10;  // of the squared distance from the centre relative to the ellipse's
+
+// Point of the ellipse of anisotropic friction that is closest to a tangential impulse outside of it, as the projection
+// to a disc: friction dissipates most. The larger semi-axis, `radius`, is along the first tangent. With the semi-axes a
+// and b the point is (a^2 x / (a^2 + t), b^2 y / (b^2 + t)); its equation in t is convex, so Newton's iterations
+// approach the root from below.
 Vec3 onEllipse(const ContactRow& row, const Vec3& tangential, double radius)
 {
-    const double first = dot(tangential, row.m_axes[1]), second = dot(tangential, row.m_axes[2]);
-    if (!(row.m_aspect > 0)) return std::clamp(first, -radius, radius) * row.m_axes[1];
-    const double length = std::hypot(first, second / row.m_aspect);
-    return length > radius ? (radius / length) * tangential : tangential;
+    const double x = dot(tangential, row.m_axes[1]), y = dot(tangential, row.m_axes[2]);
+    const double a = radius, b = row.m_aspect * radius;
+    if (!(b > 0)) return std::clamp(x, -a, a) * row.m_axes[1];
+    if (std::hypot(x / a, y / b) <= 1) return tangential;
+    double t = std::max({0.0, a * std::fabs(x) - a * a, b * std::fabs(y) - b * b});
+    for (int k = 0; k < kEllipseIterations; ++k)
+    {
+        const double p = a * x / (a * a + t), q = b * y / (b * b + t), beyond = p * p + q * q - 1;
+        if (!(beyond > kEllipseTolerance)) break;
+        t += 0.5 * beyond / (p * p / (a * a + t) + q * q / (b * b + t));
+    }
+    const double first = a * a * x / (a * a + t), second = b * b * y / (b * b + t);
+    const double share = 1 / std::max(1.0, std::hypot(first / a, second / b));
+    return share * (first * row.m_axes[1] + second * row.m_axes[2]);
 }
 
 Vec3 impulseOfContact(const ContactRow& row, const Vec3& impulse, Vec3 v, double step)

@@ -345,7 +345,29 @@ bool JointSystem::holdBeyondLimits(Part& part, double& largest)
         --m_patience;
         ++m_changes;
     }
+    if (m_patience == 0) any = holdLimited(part) || any;
     part.m_stale = part.m_stale || any;
+    return any;
+}
+
+// Clamping unknowns that were solved at once may diverge: from here on, all that have limits are swept. True if one was
+// not.
+bool JointSystem::holdLimited(const Part& part)
+{
+    bool any = false;
+    for (int k = part.m_begin; k < part.m_end; ++k)
+    {
+        ContactRow& r = row(k);
+        const bool isRound = r.m_maxImpulse < Joint::kUnlimited;
+        for (int i = 0; i < 3; ++i)
+        {
+            const bool isLimited = isRound || r.m_limit[i] < Joint::kUnlimited || r.m_lower[i] > -Joint::kUnlimited;
+            if (!isLimited || m_isHeld[3 * k + i]) continue;
+            m_isHeld[3 * k + i] = 1;
+            any = r.m_held = true;
+        }
+    }
+    if (any) ++m_changes;
     return any;
 }
 

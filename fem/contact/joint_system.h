@@ -78,6 +78,7 @@ private:
     double missBy(const Part& part);
     double sweepHeld(Part& part, int joint);
     bool holdBeyondLimits(Part& part, double& largest);
+    bool holdLimited(const Part& part);
     bool isBeyondLimits(const ContactRow& joint, const Vec3& impulse) const;
     double takeChanges(const Part& part);
     Vec3 changeOf(int joint) const;

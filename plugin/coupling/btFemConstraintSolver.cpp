@@ -48,6 +48,7 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
         return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
             bodies, numBodies, manifolds, numManifolds, constraints, numConstraints, info, debugDrawer);
 
+    btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
     const auto sweep = [&](int iteration)

@@ -64,6 +64,7 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
             numConstraints, info, debugDrawer);
 
     pairDeformableAndSolverBody(bodies, numBodies, numDeformableBodies, info);
+    btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, deformableBodies, numDeformableBodies, manifolds,
                                                   numManifolds, constraints, numConstraints, info, debugDrawer);
     const auto isFem = [this](const btCollisionObject* body)

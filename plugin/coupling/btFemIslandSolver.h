@@ -58,6 +58,15 @@ public:
         m_group = nullptr;
     }
 
+    /// Removes what is not finite from Bullet's position correction of contacts. Call before its split impulses.
+    template <class Solver>
+    static void clearBadPushes(Solver& solver)
+    {
+        btConstraintArray& contacts = solver.m_tmpSolverContactConstraintPool;
+        for (int k = 0; k < contacts.size(); ++k)
+            if (!std::isfinite(contacts[k].m_rhsPenetration)) contacts[k].m_rhsPenetration = 0;
+    }
+
     /// Solves Bullet's rows of `solver` and the soft rows as one problem, or in turn if some of Bullet's belong to
     /// multibodies or to its own soft bodies (`others`). sweep(iteration) sweeps Bullet's rows once and returns the
     /// square of the largest change of a row's velocity [m2/s2]. Call while hasFem().

@@ -55,6 +55,7 @@ btScalar btFemMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
         return btMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
             bodies, numBodies, manifolds, numManifolds, constraints, numConstraints, info, debugDrawer);
 
+    btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
     const auto sweep = [&](int iteration)
