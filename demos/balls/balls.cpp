@@ -28,6 +28,12 @@ btFemMaterial materialOf(double young, double damping)
     return material;
 }
 
+const char* const kNames[] = {"soft", "medium", "hard"};
+constexpr double kLeastRebound[] = {0.5, 0.75, 0.85};  // energy of vibrations after the impact is lost
+// Share of a rigid sphere's speed: 85 % of that in steps of 1/960 s, .65, .84 and .90, as implicit Euler in contact
+// damps rolling.
+constexpr double kLeastSpeed[] = {0.55, 0.71, 0.76};
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -77,18 +83,14 @@ int main(int argc, char** argv)
         // point.
         const double rolling = 5.0 / 7 * kGravity * std::sin(angle) * demo.time();
         demo.check("rigid sphere: speed / rolling", rigid.getLinearVelocity().dot(down) / rolling, 0.98, 1.02, "", 2);
-        const char* names[] = {"soft", "medium", "hard"};
-        const double least[] = {0.5, 0.75, 0.85};  // minimum; energy of vibrations after the impact is lost
-        // Minimum share of a rigid sphere's speed: 85 % of that in steps of 1/960 s, .65, .84 and .90, as implicit
-        // Euler in contact damps rolling.
-        const double slowest[] = {0.55, 0.71, 0.76};
         for (int k = 0; k < 3; ++k)
         {
-            const std::string name = names[k] + std::string(" ball: ");
+            const std::string name = kNames[k] + std::string(" ball: ");
             demo.figure(name + "speed", velocityOf(*balls[k]).dot(down), "m/s");
-            demo.check(name + "rebound / e^2 fall", rebound[k] / (kFall * restitution * restitution), least[k], 1.25,
-                       "", 1);
-            demo.check(name + "speed / rolling", velocityOf(*balls[k]).dot(down) / rolling, slowest[k], 1.02, "", 2);
+            demo.check(name + "rebound / e^2 fall", rebound[k] / (kFall * restitution * restitution), kLeastRebound[k],
+                       1.25, "", 1);
+            demo.check(name + "speed / rolling", velocityOf(*balls[k]).dot(down) / rolling, kLeastSpeed[k], 1.02, "",
+                       2);
         }
     };
     return demo.run(argc, argv, scene);

@@ -2,11 +2,42 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/coupling/btFemRewindSolver.h"
 
+#include "bullet_bridge/joints/soft_joints.h"
 #include "plugin/coupling/btFemIslandSolver.h"
+#include "plugin/record/btFemBodyRecord.h"
 #include "plugin/stages/btFemContactGroup.h"
 
-void btFemRewindSolver::solve(btFemContactGroup& group, bullet_fem::RigidRewind& rewind, double step)
+using namespace bullet_fem;
+
+// All FEM bodies of a solver are in one world.
+void btFemRewindSolver::note(const btSoftBody* soft)
 {
+    if (soft && m_isEnabled)
+        m_rewind.note(*soft);
+    else
+        m_rewind.forget();
+}
+
+bool btFemRewindSolver::rewind(const std::vector<btFemBodyRecord*>& records, double step)
+{
+    bool can = m_rewind.begin(step) && m_isEnabled;
+    const auto rewindIsland = [&](const btCollisionObject* object)
+    {
+        if (!can || !m_rewind.holds(object)) return;
+        if (linkOf(*object) || (m_rewind.isNoted(*object) && !m_rewind.rewind(*object))) can = false;
+    };
+    for (const btFemBodyRecord* record : records)
+    {
+        for (const btCollisionObject* object : record->fem().m_overlaps.m_rigid) rewindIsland(object);
+        forEachRigidEnd(record->fem(), rewindIsland);
+    }
+    if (!can) m_rewind.keepNone();
+    return can;
+}
+
+void btFemRewindSolver::solve(btFemContactGroup& group, double step)
+{
+    RigidRewind& rewind = m_rewind;
     if (rewind.bodies().empty()) return group.solve();
     m_group = &group;
     btContactSolverInfo info;
@@ -24,6 +55,7 @@ btScalar btFemRewindSolver::solveGroupCacheFriendlyIterations(btCollisionObject*
                                                               const btContactSolverInfo& info,
                                                               btIDebugDraw* debugDrawer)
 {
+    btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
     m_group->solveWith({m_tmpSolverBodyPool, m_tmpSolverNonContactConstraintPool, m_tmpSolverContactConstraintPool,

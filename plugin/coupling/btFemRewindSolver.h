@@ -2,24 +2,47 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <vector>
+
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
 #include "bullet_bridge/rigid/rigid_rewind.h"
 
 class btFemContactGroup;
+class btFemIslandSolver;
+struct btFemBodyRecord;
 
-/// Solves rigid bodies that were put back to the start of the step (see bullet_fem::RigidRewind) with the FEM bodies of
-/// a group, and moves them: Bullet sets its rows up, the group solves them with its own.
+/// The swap's coupling: puts rigid bodies that Bullet has solved and moved without soft bodies back to the start of the
+/// step, solves them with the FEM bodies of a group, and moves them. Bullet sets its rows up, the group solves them
+/// with its own.
 class btFemRewindSolver : private btSequentialImpulseConstraintSolver
 {
 public:
-    /// `rewind` after keepOnly(); the group after collect() in phase `solving`. `step` [s].
-    void solve(btFemContactGroup& group, bullet_fem::RigidRewind& rewind, double step);
+    /// Call before collision detection; `soft`: a FEM body of the world, null if none moves.
+    void note(const btSoftBody* soft);
+
+    /// Call once if bodies cannot be put back: the world's rigid solver solves FEM bodies, or forces are no longer on
+    /// the rigid bodies.
+    void disable() { m_isEnabled = false; }
+
+    /// Call after Bullet has moved the rigid bodies: puts back those that these FEM bodies may touch or hold. False if
+    /// some cannot be put back, and none is. `step` [s].
+    bool rewind(const std::vector<btFemBodyRecord*>& records, double step);
+
+    /// The islands that were put back.
+    bullet_fem::RigidRewind& islands() { return m_rewind; }
+
+    /// Call after the group's collect() in phase `solving`, with these islands. `step` [s].
+    void solve(btFemContactGroup& group, double step);
 
 private:
+    friend class btFemIslandSolver;
+
     btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
                                                btPersistentManifold** manifolds, int numManifolds,
                                                btTypedConstraint** constraints, int numConstraints,
                                                const btContactSolverInfo& info, btIDebugDraw* debugDrawer) override;
 
+    bullet_fem::RigidRewind m_rewind;
+    bool m_isEnabled = true;
     btFemContactGroup* m_group = nullptr;
 };

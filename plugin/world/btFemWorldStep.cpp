@@ -4,7 +4,6 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
-#include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/common/chunks.h"
@@ -47,40 +46,12 @@ void btFemWorldStep::predict(double step)
         m_detailChooser.choose(*record, bodyStep(*record, step));
     }
     prepareForCollision(m_registry.records());
-    noteRigid();
-}
-
-// All FEM bodies of a solver are in one world.
-void btFemWorldStep::noteRigid()
-{
-    if (m_due.empty() || !m_canRewind)
-        m_rewind.forget();
-    else
-        m_rewind.note(*m_due.front()->m_softBody);
-}
-
-// Puts the rigid bodies that FEM bodies may touch or hold back to the start of the step. False if some cannot be, and
-// none is: they are then coupled after Bullet has moved them.
-bool btFemWorldStep::rewindRigid(double step)
-{
-    bool can = m_rewind.begin(step) && m_canRewind;
-    const auto rewind = [&](const btCollisionObject* object)
-    {
-        if (!can || !m_rewind.holds(object)) return;
-        if (linkOf(*object) || (m_rewind.isNoted(*object) && !m_rewind.rewind(*object))) can = false;
-    };
-    for (const btFemBodyRecord* record : m_active)
-    {
-        for (const btCollisionObject* object : record->fem().m_overlaps.m_rigid) rewind(object);
-        forEachRigidEnd(record->fem(), rewind);
-    }
-    if (!can) m_rewind.keepNone();
-    return can;
+    m_rewindSolver.note(m_due.empty() ? nullptr : m_due.front()->m_softBody);
 }
 
 btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo)
 {
-    m_canRewind = false;  // the world's rigid solver solves FEM bodies
+    m_rewindSolver.disable();  // the world's rigid solver solves FEM bodies
     completeWokenBodies(m_registry);
     m_due.clear();
     for (int k = 0; k < count; ++k)
@@ -111,11 +82,12 @@ void btFemWorldStep::solve(double step)
     completeWokenBodies(m_registry);
     selectUnsolved(step);
     m_freeMotion.solve(m_due, m_group.softPairs());
-    if (rewindRigid(step))
+    if (m_rewindSolver.rewind(m_active, step))
     {
-        m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving, nullptr, 0, &m_rewind});
+        m_group.collect(
+            {m_active, m_registry.records(), step, RigidPhase::solving, nullptr, 0, &m_rewindSolver.islands()});
         m_freeMotion.dampTouching(m_group.touching());
-        m_rewindSolver.solve(m_group, m_rewind, step);
+        m_rewindSolver.solve(m_group, step);
     }
     else
     {

@@ -40,7 +40,7 @@ public:
     /// See ArticulatedBodies::assumeForcesGiven.
     void assumeForcesGiven(const bullet_fem::Vec3& gravity)
     {
-        m_canRewind = false;
+        m_rewindSolver.disable();  // forces are in the velocities already
         m_group.assumeForcesGiven(gravity);
     }
 
@@ -68,8 +68,6 @@ public:
 private:
     void selectMoving(double step);
     void selectUnsolved(double step);
-    void noteRigid();
-    bool rewindRigid(double step);
     void finishMotions(double step);
     void readChanges(btFemBodyRecord& record);
     template <class Task>
@@ -88,9 +86,7 @@ private:
     btFemFreeMotion m_freeMotion;
     btFemContactGroup m_group;
     btFemSplitter m_splitter;
-    bullet_fem::RigidRewind m_rewind;
     btFemRewindSolver m_rewindSolver;
-    bool m_canRewind = true;                 // Bullet's world leaves forces on the bodies
     std::vector<btFemBodyRecord*> m_due;     // bodies whose prediction or free motion is due
     std::vector<btFemBodyRecord*> m_active;  // bodies whose free motion is solved
     std::vector<bullet_fem::Vec3> m_change;  // scratch [m/s]
