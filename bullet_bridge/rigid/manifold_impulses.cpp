@@ -39,9 +39,9 @@ void ManifoldImpulses::note(btDispatcher& dispatcher)
             m_noted.push_back({manifold, point.m_localPointA, point.m_appliedImpulse, frictionOf(point)});
         }
     }
-    std::stable_sort(m_noted.begin(), m_noted.end(),
-                     [](const Noted& a, const Noted& b)
-                     { return std::less<const btPersistentManifold*>()(a.m_manifold, b.m_manifold); });
+    std::sort(m_noted.begin(), m_noted.end(),
+              [](const Noted& a, const Noted& b)
+              { return std::less<const btPersistentManifold*>()(a.m_manifold, b.m_manifold); });
 }
 
 // Collision detection may have replaced or reordered points since then.
@@ -56,7 +56,7 @@ const ManifoldImpulses::Noted* ManifoldImpulses::find(const btPersistentManifold
          k != m_noted.end() && k->m_manifold == &manifold; ++k)
     {
         const btScalar distance = (k->m_at - point.m_localPointA).length();
-        if (!(distance < nearest)) continue;
+        if (!(distance < nearest)) continue;  // no two points of a manifold are equally near
         nearest = distance;
         found = &*k;
     }

@@ -50,6 +50,12 @@ void forEachObject(btBroadphaseInterface& broadphase, const Visit& visit)
     broadphase.aabbTest(-all, all, visitor);
 }
 
+// The vector; 0 if it is not finite, as after bad rows of constraints in Bullet's own solver.
+btVector3 finite(const btVector3& v)
+{
+    return isFinite(vec3(v)) ? v : btVector3(0, 0, 0);
+}
+
 bool meetsRigid(const btCollisionObject& object)
 {
     return object.hasContactResponse() && object.getInternalType() != btCollisionObject::CO_SOFT_BODY;
@@ -148,12 +154,12 @@ bool RigidRewind::begin(double step)
         noted.m_explained.setZero();
         noted.m_explainedParts = noted.m_pushed = 0;
         noted.m_isMoved = body.isActive();
-        noted.m_linearByCallbacks = body.getLinearVelocity() - body.getInterpolationLinearVelocity();
-        noted.m_angularByCallbacks = body.getAngularVelocity() - body.getInterpolationAngularVelocity();
+        noted.m_linearByCallbacks = finite(body.getLinearVelocity() - body.getInterpolationLinearVelocity());
+        noted.m_angularByCallbacks = finite(body.getAngularVelocity() - body.getInterpolationAngularVelocity());
     }
     for (Noted& noted : m_bodies)
-        noted.m_byBullet = {vec3(noted.m_after.m_linear - noted.m_linearByCallbacks),
-                            vec3(noted.m_after.m_angular - noted.m_angularByCallbacks)};
+        noted.m_byBullet = {vec3(finite(noted.m_after.m_linear - noted.m_linearByCallbacks)),
+                            vec3(finite(noted.m_after.m_angular - noted.m_angularByCallbacks))};
     readConstraints();
     readManifolds();
     for (Noted& noted : m_bodies) checkBody(noted);

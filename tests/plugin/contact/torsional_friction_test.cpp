@@ -94,14 +94,6 @@ StepCouple stepAndMeasure(FemWorld& world, const btRigidBody& ball, const btSoft
     return result;
 }
 
-/// The velocity of a resting ball. With the swap Bullet's value is that before gravity of the next step, which is
-/// added.
-btVector3 motionAtRest(FemWorld& world, const btRigidBody& ball)
-{
-    const bool swaps = dynamic_cast<btFemConstraintSolver*>(world.bullet().getConstraintSolver()) == nullptr;
-    return ball.getLinearVelocity() + (swaps ? kStep : 0) * ball.getGravity();
-}
-
 class TorsionalFrictionTest : public testing::TestWithParam<Coupling>
 {
 };
@@ -123,7 +115,7 @@ TEST_P(TorsionalFrictionTest, RollingBallStopsAboutAsOnRigidGround)
     const double onGround = twin->getWorldTransform().getOrigin().x() + 0.97;
     EXPECT_LT(onSlab, 1.02 * way);
     EXPECT_NEAR(onSlab, onGround, 0.12 * onGround);
-    EXPECT_LT(motionAtRest(world, *ball).length(), 1e-5);
+    EXPECT_LT(ball->getLinearVelocity().length(), 1e-5);
     EXPECT_LT(ball->getAngularVelocity().length(), 1e-4);
 }
 
@@ -165,7 +157,7 @@ TEST_P(TorsionalFrictionTest, ASpinningBallSlowsDownAsOnRigidGround)
     RigidSettings settings = ballAt(0.03, 0.05);
     settings.m_spin = btVector3(0, 0, btScalar(kSpin));
     const auto [ball, twin] = addBalls(world, settings, {1e-5, kSpinning});  // without rolling friction Bullet has none
-    world.step(15);  // the first step of the swap has double load
+    world.step(15);
     const double begin = ball->getAngularVelocity().z(), twinBegin = twin->getAngularVelocity().z();
     world.step(30);
     const double slowed = 0.5 * kSpinning * kBallMass * kGravity / kBallInertia;
@@ -186,7 +178,7 @@ TEST_P(TorsionalFrictionTest, RollingFrictionHoldsABallOnASlope)
         addSlab(world);
         btRigidBody& ball = addRigidBall(world, ballAt(-0.97, 0.02), {kRolling, 0.01});
         world.step(120);
-        const double speed = motionAtRest(world, ball).x();
+        const double speed = ball.getLinearVelocity().x();
         const double free = 2 * 5.0 / 7 * side * (slope - kRolling / kBallRadius);
         EXPECT_GT(speed, share < 1 ? -1e-4 : 0.5 * free);
         EXPECT_LT(speed, std::max(1.05 * free, 1e-4));
@@ -209,7 +201,7 @@ TEST_P(TorsionalFrictionTest, MayBeAnisotropic)
         capsule.setAnisotropicFriction(aboutItsAxis ? direction : btVector3(1, 1, 1) - direction,
                                        btCollisionObject::CF_ANISOTROPIC_ROLLING_FRICTION);
         world.step(60);
-        const double speed = motionAtRest(world, capsule).x();
+        const double speed = capsule.getLinearVelocity().x();
         if (aboutItsAxis)
             EXPECT_LT(std::fabs(speed), 1e-3);
         else
