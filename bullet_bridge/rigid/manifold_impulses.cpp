@@ -32,13 +32,17 @@ void ManifoldImpulses::note(btDispatcher& dispatcher)
     m_noted.clear();
     for (int k = 0; k < dispatcher.getNumManifolds(); ++k)
     {
-        const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
+        btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
+        const bool isSolved =
+            std::binary_search(m_solved.begin(), m_solved.end(), manifold, std::less<const btPersistentManifold*>());
         for (int p = 0; p < manifold->getNumContacts(); ++p)
         {
-            const btManifoldPoint& point = manifold->getContactPoint(p);
+            btManifoldPoint& point = manifold->getContactPoint(p);
             m_noted.push_back({manifold, point.m_localPointA, point.m_appliedImpulse, frictionOf(point)});
+            if (isSolved) point.m_appliedImpulse = point.m_appliedImpulseLateral1 = point.m_appliedImpulseLateral2 = 0;
         }
     }
+    m_solved.clear();
     std::sort(m_noted.begin(), m_noted.end(),
               [](const Noted& a, const Noted& b)
               { return std::less<const btPersistentManifold*>()(a.m_manifold, b.m_manifold); });
@@ -66,6 +70,8 @@ const ManifoldImpulses::Noted* ManifoldImpulses::find(const btPersistentManifold
 void ManifoldImpulses::set(const std::vector<btPersistentManifold*>& manifolds)
 {
     m_flags.clear();
+    m_solved.assign(manifolds.begin(), manifolds.end());
+    std::sort(m_solved.begin(), m_solved.end(), std::less<const btPersistentManifold*>());
     for (btPersistentManifold* manifold : manifolds)
         for (int p = 0; p < manifold->getNumContacts(); ++p)
         {

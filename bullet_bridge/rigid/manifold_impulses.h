@@ -18,7 +18,8 @@ namespace bullet_fem
 class ManifoldImpulses
 {
 public:
-    /// Notes all points of the dispatcher's manifolds.
+    /// Notes all points of the dispatcher's manifolds. Those solved with set() since the last call start from 0 in
+    /// Bullet's own solver: without soft bodies the impulses would throw light rigid bodies.
     void note(btDispatcher& dispatcher);
     void forget() { m_noted.clear(); }
 
@@ -42,8 +43,9 @@ private:
 
     const Noted* find(const btPersistentManifold& manifold, const btManifoldPoint& point) const;
 
-    std::vector<Noted> m_noted;  // sorted by manifold
-    std::vector<int> m_flags;    // of the points of set(), in their order
+    std::vector<Noted> m_noted;                         // sorted by manifold
+    std::vector<const btPersistentManifold*> m_solved;  // by set(), sorted by address, which is only compared
+    std::vector<int> m_flags;                           // of the points of set(), in their order
 };
 
 }  // namespace bullet_fem
