@@ -61,9 +61,13 @@ Vec3 momentumOf(const Loaded& scene, const btRigidBody& tray)
     return motionOf(tray).m_linear + motionOf(*scene.m_softPayloads[0]).m_linear;
 }
 
-TEST(BulletContacts, CarryAPayload)
+class BulletContacts : public testing::TestWithParam<Coupling>
 {
-    Loaded scene(Coupling::coupled);
+};
+
+TEST_P(BulletContacts, CarryAPayload)
+{
+    Loaded scene(GetParam());
     scene.m_world.addFloorBox();
     const btRigidBody& tray = addLoadedTray(scene);
     scene.m_world.step(120);
@@ -145,14 +149,8 @@ struct PlankAndBall
     btRigidBody *m_plank, *m_ball;
 };
 
-/// In both couplings. A staggered step solves Bullet's contacts without the payload's weight, so that other tests are
-/// for the monolithic one.
-class BulletContactsOfBoth : public testing::TestWithParam<Coupling>
-{
-};
-
 // On a slope of 0.9 times the friction angle's tangent.
-TEST_P(BulletContactsOfBoth, StickWithinTheCone)
+TEST_P(BulletContacts, StickWithinTheCone)
 {
     const double slope = std::atan(0.9 * kMu);
     Loaded scene(GetParam(), Loaded::Payload::soft,
@@ -165,7 +163,7 @@ TEST_P(BulletContactsOfBoth, StickWithinTheCone)
     EXPECT_NEAR(double(tray.getCenterOfMassPosition().x()), before, 1e-4);
 }
 
-TEST_P(BulletContactsOfBoth, BrakeARollingBallAsInBulletsWorld)
+TEST_P(BulletContacts, BrakeARollingBallAsInBulletsWorld)
 {
     PlankAndBall ours(GetParam(), Loaded::Payload::soft), twin(Coupling::swap, Loaded::Payload::rigid);
     for (PlankAndBall* scene : {&ours, &twin})
@@ -184,7 +182,7 @@ TEST_P(BulletContactsOfBoth, BrakeARollingBallAsInBulletsWorld)
     EXPECT_NEAR(ours.m_ball->getAngularVelocity().y(), twin.m_ball->getAngularVelocity().y(), 0.2);
 }
 
-TEST_P(BulletContactsOfBoth, BrakeASpinningBallAsInBulletsWorld)
+TEST_P(BulletContacts, BrakeASpinningBallAsInBulletsWorld)
 {
     PlankAndBall ours(GetParam(), Loaded::Payload::soft), twin(Coupling::swap, Loaded::Payload::rigid);
     for (PlankAndBall* scene : {&ours, &twin})
@@ -201,7 +199,7 @@ TEST_P(BulletContactsOfBoth, BrakeASpinningBallAsInBulletsWorld)
 }
 
 // With the speed of Bullet's position correction in addition.
-TEST_P(BulletContactsOfBoth, ReboundAsInBulletsWorld)
+TEST_P(BulletContacts, ReboundAsInBulletsWorld)
 {
     PlankAndBall ours(GetParam(), Loaded::Payload::soft, 0.3), twin(Coupling::swap, Loaded::Payload::rigid, 0.3);
     for (PlankAndBall* scene : {&ours, &twin})
@@ -222,13 +220,13 @@ TEST_P(BulletContactsOfBoth, ReboundAsInBulletsWorld)
     EXPECT_LT(ours.m_plank->getLinearVelocity().length(), 5e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Couplings, BulletContactsOfBoth, testing::Values(Coupling::swap, Coupling::coupled),
+INSTANTIATE_TEST_SUITE_P(Couplings, BulletContacts, testing::Values(Coupling::swap, Coupling::coupled),
                          [](const auto& suite) { return couplingName(suite.param); });
 
-TEST(BulletContacts, SinkByTheirStiffness)
+TEST_P(BulletContacts, SinkByTheirStiffness)
 {
     constexpr double kStiffness = 1000, kPoints = 4;  // of each contact point [N/m]
-    Loaded scene(Coupling::coupled);
+    Loaded scene(GetParam());
     scene.m_world.addFloorBox();
     btRigidBody& tray = addLoadedTray(scene);
     tray.setContactStiffnessAndDamping(btScalar(kStiffness), 20);
@@ -238,9 +236,9 @@ TEST(BulletContacts, SinkByTheirStiffness)
     EXPECT_LT(tray.getLinearVelocity().length(), 1e-3);
 }
 
-TEST(BulletContacts, AreCarriedByAKinematicBody)
+TEST_P(BulletContacts, AreCarriedByAKinematicBody)
 {
-    Loaded scene(Coupling::coupled);
+    Loaded scene(GetParam());
     constexpr double kSpeed = 0.5;
     btRigidBody& ground = addKinematicBox(scene.m_world, {4, 2, 0.2}, at(0, 0, btScalar(-0.1)));
     const btRigidBody& tray = addLoadedTray(scene, 1, {kSpeed, 0, kSpeed});
@@ -259,9 +257,9 @@ TEST(BulletContacts, AreCarriedByAKinematicBody)
 }
 
 // A tower of soft cubes of 1 kg and plates of a fiftieth of it.
-TEST(BulletContacts, LetATowerWithLightPlatesStandAndSleep)
+TEST_P(BulletContacts, LetATowerWithLightPlatesStandAndSleep)
 {
-    Loaded scene(Coupling::coupled);
+    Loaded scene(GetParam());
     scene.m_world.addFloorBox();
     constexpr double kPlate = 0.02;  // thickness [m], and mass [kg]
     std::vector<btRigidBody*> plates;
@@ -281,9 +279,9 @@ TEST(BulletContacts, LetATowerWithLightPlatesStandAndSleep)
 }
 
 // The most dissipative friction within the ellipse: it is nearly that of the rough direction.
-TEST(BulletContacts, BrakeADiagonalSlideMostAlongTheRoughDirection)
+TEST_P(BulletContacts, BrakeADiagonalSlideMostAlongTheRoughDirection)
 {
-    Loaded scene(Coupling::coupled);
+    Loaded scene(GetParam());
     scene.m_world.addFloorBox();
     btRigidBody& tray = addLoadedTray(scene, kMu, {2, 2, 0});
     tray.setAnisotropicFriction({1, btScalar(0.1), 1});
@@ -296,9 +294,9 @@ TEST(BulletContacts, BrakeADiagonalSlideMostAlongTheRoughDirection)
 }
 
 // A pyramid of ten rigid boxes, with a soft cube on top.
-TEST(BulletContacts, LetAPyramidStand)
+TEST_P(BulletContacts, LetAPyramidStand)
 {
-    Loaded scene(Coupling::coupled);
+    Loaded scene(GetParam());
     scene.m_world.addFloorBox();
     constexpr double kEdge = 0.2;  // of the boxes [m]
     std::vector<btRigidBody*> boxes;

@@ -55,8 +55,6 @@ btTransform upright()
     return btTransform(btQuaternion(kAlongY, -SIMD_HALF_PI));
 }
 
-/// In both couplings: a staggered step gives the payload's weight to the tray after Bullet's joints, as a velocity that
-/// they take back in the next step.
 class JointsOfBoth : public testing::TestWithParam<Coupling>
 {
 };
