@@ -13,12 +13,6 @@ namespace bullet_fem
 namespace
 {
 
-btVector3 frictionOf(const btManifoldPoint& point)
-{
-    return point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-           point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-}
-
 // True if Bullet's set-up keeps the point's directions of friction.
 bool hasDirections(const btManifoldPoint& point)
 {
@@ -26,6 +20,12 @@ bool hasDirections(const btManifoldPoint& point)
 }
 
 }  // namespace
+
+btVector3 frictionOf(const btManifoldPoint& point)
+{
+    return point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+           point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+}
 
 void ManifoldImpulses::note(btDispatcher& dispatcher)
 {

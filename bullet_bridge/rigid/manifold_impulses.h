@@ -13,6 +13,9 @@ class btPersistentManifold;
 namespace bullet_fem
 {
 
+/// Impulse of friction of a contact point on body 0 in Bullet's last solve [N s].
+btVector3 frictionOf(const btManifoldPoint& point);
+
 /// Impulses of Bullet's contact points at the end of the last step, as warm starts for contacts that are solved once
 /// more after Bullet's own solver has overwritten them. Grows with the number of points, never shrinks.
 class ManifoldImpulses

@@ -3,7 +3,6 @@
 #include "bullet_bridge/rigid/rigid_contacts.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
@@ -19,12 +18,10 @@ namespace
 constexpr double kRecovery = 0.2;  // share of a penetration that Bullet corrects in a step [-]
 constexpr int kFar = 6;            // levels of neighbouring rigid bodies that count as movable
 
-// True if Bullet's rigid solver resolves contacts of the object. Links of multibodies are left out: their multibody
-// responds for them.
-bool isSolid(const btCollisionObject& object)
+// Links of multibodies are left out: their multibody responds for them.
+bool isRigid(const btCollisionObject& object)
 {
-    return object.hasContactResponse() && object.getInternalType() != btCollisionObject::CO_SOFT_BODY &&
-           !btMultiBodyLinkCollider::upcast(&object);
+    return hasRigidContacts(object) && !btMultiBodyLinkCollider::upcast(&object);
 }
 
 // Velocity at a point of a kinematic object; 0 for other objects without a rigid proxy [m/s].
@@ -56,7 +53,7 @@ void RigidContactFinder::listPairs(btDispatcher& dispatcher)
     for (int k = 0; k < dispatcher.getNumManifolds(); ++k)
     {
         const btPersistentManifold* manifold = dispatcher.getManifoldByIndexInternal(k);
-        if (manifold->getNumContacts() > 0 && isSolid(*manifold->getBody0()) && isSolid(*manifold->getBody1()))
+        if (manifold->getNumContacts() > 0 && isRigid(*manifold->getBody0()) && isRigid(*manifold->getBody1()))
             m_pairs.push_back({manifold, -1, -1});
     }
 }
@@ -77,12 +74,8 @@ void RigidContactFinder::keepTouching()
 {
     const auto isApart = [](const Pair& pair) { return pair.m_first < 0 && pair.m_second < 0; };
     m_pairs.erase(std::remove_if(m_pairs.begin(), m_pairs.end(), isApart), m_pairs.end());
-    const auto keyOf = [](const Pair& pair)
-    {
-        const btPersistentManifold& m = *pair.m_manifold;
-        return std::make_tuple(broadphaseId(*m.getBody0()), broadphaseId(*m.getBody1()), m.m_index1a);
-    };
-    std::sort(m_pairs.begin(), m_pairs.end(), [&](const Pair& a, const Pair& b) { return keyOf(a) < keyOf(b); });
+    std::sort(m_pairs.begin(), m_pairs.end(),
+              [](const Pair& a, const Pair& b) { return orderOf(*a.m_manifold) < orderOf(*b.m_manifold); });
 }
 
 // Makes rigid proxies of the neighbours of rigid proxies. False if there are no new ones.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/rigid/rigid_objects.h"
 
+#include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 
@@ -38,6 +39,16 @@ btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& rema
 int broadphaseId(const btCollisionObject& object)
 {
     return object.getBroadphaseHandle() ? object.getBroadphaseHandle()->m_uniqueId : -1;
+}
+
+std::tuple<int, int, int> orderOf(const btPersistentManifold& manifold)
+{
+    return {broadphaseId(*manifold.getBody0()), broadphaseId(*manifold.getBody1()), manifold.m_index1a};
+}
+
+bool hasRigidContacts(const btCollisionObject& object)
+{
+    return object.hasContactResponse() && object.getInternalType() != btCollisionObject::CO_SOFT_BODY;
 }
 
 }  // namespace bullet_fem

@@ -2,11 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <tuple>
+
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 class btCollisionObject;
 class btMultiBodyLinkCollider;
+class btPersistentManifold;
 class btRigidBody;
 
 namespace bullet_fem
@@ -37,5 +40,11 @@ btVector3 addedExactly(const btVector3& velocity, const Vec3& change, Vec3& rema
 
 /// Bullet's broadphase id of an object, unique in a world and never reused; -1 outside a world.
 int broadphaseId(const btCollisionObject& object);
+
+/// Orders manifolds by their objects' ids: Bullet's own order depends on the history of its pairs.
+std::tuple<int, int, int> orderOf(const btPersistentManifold& manifold);
+
+/// True if Bullet's rigid solvers resolve contacts of the object, a link of a multibody included.
+bool hasRigidContacts(const btCollisionObject& object);
 
 }  // namespace bullet_fem

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <functional>
-#include <tuple>
 
-#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "LinearMath/btTransformUtil.h"
+#include "bullet_bridge/rigid/broadphase_objects.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
@@ -27,38 +26,10 @@ constexpr btScalar kUnexplained = btScalar(1e-3);
 // Share of a step's motion, and of the distance from the origin, by which single precision displaces a body [-].
 constexpr btScalar kMotionRounding = btScalar(1e-3), kPlaceRounding = btScalar(1e-5);
 
-template <class Visit>
-class BodyVisitor : public btBroadphaseAabbCallback
-{
-public:
-    explicit BodyVisitor(const Visit& visit) : m_visit(visit) {}
-    bool process(const btBroadphaseProxy* proxy) override
-    {
-        m_visit(static_cast<btCollisionObject*>(proxy->m_clientObject));
-        return true;
-    }
-
-private:
-    const Visit& m_visit;
-};
-
-template <class Visit>
-void forEachObject(btBroadphaseInterface& broadphase, const Visit& visit)
-{
-    const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-    BodyVisitor<Visit> visitor(visit);
-    broadphase.aabbTest(-all, all, visitor);
-}
-
 // The vector; 0 if it is not finite, as after bad rows of constraints in Bullet's own solver.
 btVector3 finite(const btVector3& v)
 {
     return isFinite(vec3(v)) ? v : btVector3(0, 0, 0);
-}
-
-bool meetsRigid(const btCollisionObject& object)
-{
-    return object.hasContactResponse() && object.getInternalType() != btCollisionObject::CO_SOFT_BODY;
 }
 
 }  // namespace
@@ -156,10 +127,9 @@ bool RigidRewind::begin(double step)
         noted.m_isMoved = body.isActive();
         noted.m_linearByCallbacks = finite(body.getLinearVelocity() - body.getInterpolationLinearVelocity());
         noted.m_angularByCallbacks = finite(body.getAngularVelocity() - body.getInterpolationAngularVelocity());
+        noted.m_byBullet = {vec3(finite(body.getInterpolationLinearVelocity())),
+                            vec3(finite(body.getInterpolationAngularVelocity()))};
     }
-    for (Noted& noted : m_bodies)
-        noted.m_byBullet = {vec3(finite(noted.m_after.m_linear - noted.m_linearByCallbacks)),
-                            vec3(finite(noted.m_after.m_angular - noted.m_angularByCallbacks))};
     readConstraints();
     readManifolds();
     for (Noted& noted : m_bodies) checkBody(noted);
@@ -228,7 +198,7 @@ void RigidRewind::readManifolds()
     {
         btPersistentManifold* manifold = m_dispatcher->getManifoldByIndexInternal(k);
         const btCollisionObject &first = *manifold->getBody0(), &second = *manifold->getBody1();
-        if (manifold->getNumContacts() == 0 || !meetsRigid(first) || !meetsRigid(second)) continue;
+        if (manifold->getNumContacts() == 0 || !hasRigidContacts(first) || !hasRigidContacts(second)) continue;
         const int a = indexOf(&first), b = indexOf(&second);
         if (a < 0 && b < 0) continue;
         m_allManifolds.push_back(manifold);
@@ -239,19 +209,15 @@ void RigidRewind::readManifolds()
         for (int p = 0; p < manifold->getNumContacts(); ++p)
         {
             const btManifoldPoint& point = manifold->getContactPoint(p);
-            const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB +
-                                      point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                                      point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+            const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB + frictionOf(point);
             if (a >= 0) explain(m_bodies[a], impulse);
             if (b >= 0) explain(m_bodies[b], -impulse);
             for (const int side : {a, b})
                 if (side >= 0) m_bodies[side].m_pushed = btMax(m_bodies[side].m_pushed, -point.getDistance());
         }
     }
-    const auto keyOf = [](const btPersistentManifold* m)
-    { return std::make_tuple(broadphaseId(*m->getBody0()), broadphaseId(*m->getBody1()), m->m_index1a); };
     std::sort(m_allManifolds.begin(), m_allManifolds.end(),
-              [&](const btPersistentManifold* a, const btPersistentManifold* b) { return keyOf(a) < keyOf(b); });
+              [](const btPersistentManifold* a, const btPersistentManifold* b) { return orderOf(*a) < orderOf(*b); });
 }
 
 void RigidRewind::explain(Noted& noted, const btVector3& impulse)

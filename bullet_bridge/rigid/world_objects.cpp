@@ -5,38 +5,18 @@
 #include <algorithm>
 #include <functional>
 
-#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/rigid/broadphase_objects.h"
 
 namespace bullet_fem
 {
-namespace
-{
-
-class ObjectCollector : public btBroadphaseAabbCallback
-{
-public:
-    explicit ObjectCollector(std::vector<const void*>& objects) : m_objects(objects) {}
-    bool process(const btBroadphaseProxy* proxy) override
-    {
-        m_objects.push_back(proxy->m_clientObject);
-        return true;
-    }
-
-private:
-    std::vector<const void*>& m_objects;
-};
-
-}  // namespace
-
 void WorldObjects::read(const btSoftBody& body)
 {
     if (hasRead(body)) return;
     btBroadphaseInterface* broadphase = body.m_worldInfo ? body.m_worldInfo->m_broadphase : nullptr;
     m_objects.clear();
-    const btVector3 all(BT_LARGE_FLOAT, BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-    ObjectCollector collector(m_objects);
-    if (broadphase) broadphase->aabbTest(-all, all, collector);
+    if (broadphase)
+        forEachObject(*broadphase, [this](const btCollisionObject* object) { m_objects.push_back(object); });
     std::sort(m_objects.begin(), m_objects.end(), std::less<const void*>());
     m_broadphase = broadphase;
 }

@@ -145,6 +145,15 @@ struct PlankAndBall
         return m_scene.addBox(kPlank, 200, {0, 0, kPlank.z / 2});
     }
 
+    // Rolling and spinning friction between ball and plank [m].
+    void setTorsionalFriction(double rolling, double spinning) const
+    {
+        m_ball->setRollingFriction(btScalar(rolling));
+        m_ball->setSpinningFriction(btScalar(spinning));
+        m_plank->setRollingFriction(1);
+        m_plank->setSpinningFriction(1);
+    }
+
     Loaded m_scene;
     btRigidBody *m_plank, *m_ball;
 };
@@ -170,10 +179,7 @@ TEST_P(BulletContacts, BrakeARollingBallAsInBulletsWorld)
     {
         scene->m_ball->setLinearVelocity({1, 0, 0});
         scene->m_ball->setAngularVelocity({0, btScalar(1 / PlankAndBall::kRadius), 0});
-        scene->m_ball->setRollingFriction(btScalar(0.005));
-        scene->m_ball->setSpinningFriction(btScalar(0.005));
-        scene->m_plank->setRollingFriction(1);
-        scene->m_plank->setSpinningFriction(1);
+        scene->setTorsionalFriction(0.005, 0.005);
         scene->m_scene.m_world.step(60);
     }
     ASSERT_LT(twin.m_ball->getLinearVelocity().x(), 0.8);
@@ -188,10 +194,7 @@ TEST_P(BulletContacts, BrakeASpinningBallAsInBulletsWorld)
     for (PlankAndBall* scene : {&ours, &twin})
     {
         scene->m_ball->setAngularVelocity({0, 0, 10});
-        scene->m_ball->setRollingFriction(btScalar(0.002));
-        scene->m_ball->setSpinningFriction(btScalar(0.001));
-        scene->m_plank->setRollingFriction(1);
-        scene->m_plank->setSpinningFriction(1);
+        scene->setTorsionalFriction(0.002, 0.001);
         scene->m_scene.m_world.step(60);
     }
     ASSERT_LT(twin.m_ball->getAngularVelocity().z(), 9);

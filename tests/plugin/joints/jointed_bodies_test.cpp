@@ -61,13 +61,7 @@ TEST(Ragdoll, FallsOnASoftMat)
 {
     LoadedRigidScene scene(Coupling::coupled);
     scene.m_world.addFloorBox();
-    SoftBox mat;
-    mat.m_size = {2, 2, 0.2};
-    mat.m_cells = {8, 8, 1};
-    mat.m_center = {0, 0, 0.1};
-    mat.m_youngModulus = btScalar(1e5);
-    mat.m_density = 200;
-    btSoftBody& soft = addSoftBox(scene.m_world, scene.m_world.fem(), mat);
+    btSoftBody& soft = scene.addMat(8, 1e5);
     struct Limb
     {
         double m_radius, m_length, m_mass;
@@ -235,13 +229,7 @@ TEST_P(TightLimits, NeverGiveMoreSpeedThanTheFall)
     const auto within = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
     LoadedRigidScene scene(Coupling::coupled);
     scene.m_world.addFloorBox();
-    SoftBox mat;
-    mat.m_size = {2, 2, 0.2};
-    mat.m_cells = {5, 5, 1};
-    mat.m_center = {0, 0, 0.1};
-    mat.m_youngModulus = btScalar(3e5);
-    mat.m_density = 200;
-    const btSoftBody& soft = addSoftBox(scene.m_world, scene.m_world.fem(), mat);
+    const btSoftBody& soft = scene.addMat(5, 3e5);
     std::vector<btRigidBody*> boxes;
     std::vector<Vec3> centers;
     for (int k = 0; k < kBoxes; ++k)

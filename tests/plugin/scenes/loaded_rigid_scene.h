@@ -57,6 +57,18 @@ public:
         return addRigidBox(m_world, size, settings);
     }
 
+    /// A soft mat of 2 x 2 x 0.2 m on the floor, of 200 kg/m3, with `cells` along the longer edges.
+    btSoftBody& addMat(int cells, double youngModulus)
+    {
+        SoftBox mat;
+        mat.m_size = {2, 2, 0.2};
+        mat.m_cells = {cells, cells, 1};
+        mat.m_center = {0, 0, 0.1};
+        mat.m_youngModulus = btScalar(youngModulus);
+        mat.m_density = 200;
+        return addSoftBox(m_world, m_world.fem(), mat);
+    }
+
     /// A payload with its lower face at this point [m].
     void addPayload(const Vec3& foot, const Vec3& velocity = {})
     {
