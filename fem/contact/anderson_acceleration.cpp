@@ -12,9 +12,6 @@ namespace
 
 constexpr int kMixed = WorkingSet::kMixed;
 
-// Weights of nearly parallel differences are large and opposite, and dominated by rounding.
-constexpr double kMaxMixingWeight = 300;  // maximum trusted weight
-
 // The first sweep drops all differences.
 void noteDelta(const Vec3& value, int slot, bool first, Vec3& last, Vec3* deltas)
 {
@@ -141,8 +138,7 @@ void AndersonAcceleration::chooseShares(const std::vector<int>& working)
                     (change[1] * own[0] - change[0] * both) / determinant};
     else if (own[m_slot] > 0)
         m_shares[m_slot] = change[m_slot] / own[m_slot];
-    const auto isNear = [](double share) { return std::abs(share) <= kMaxMixingWeight; };
-    if (!std::all_of(m_shares.begin(), m_shares.end(), isNear)) m_shares = {};
+    if (!std::isfinite(m_shares[0] + m_shares[1])) m_shares = {};
 }
 
 }  // namespace bullet_fem

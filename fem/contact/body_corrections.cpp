@@ -14,7 +14,6 @@ namespace
 {
 
 constexpr double kTooStiff = 1.5;     // W may be too stiff by this factor before it is scaled: rounds converge below 2
-constexpr double kTooSoft = 0.7;      // true over predicted response below which W counts as too soft
 constexpr double kScaleMargin = 1.2;  // margin for directions without impulses
 // Share of the work of all impulses, or of that of every new impulse alone, below which an outer iteration gives no
 // information: impulses that press a stiff body from all sides cancel each other up to the rounding of W.
@@ -23,25 +22,22 @@ constexpr double kRounding = 1e-9;  // share of the body's speed below which cha
 
 }  // namespace
 
-ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
+ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, double floor)
 {
     m_learnt = false;
     refresh();
     if (!gatherBeyond(m_applied) && !m_leftMuch) return {};
-    m_leftMuch = goal.m_share > 0;
+    m_leftMuch = false;
     addLevers(settings);
-    StepSettings loosened = settings;
-    loosened.m_tolerance = std::max(settings.m_tolerance, goal.m_share);
-    const double floor = floorOf(goal) * settings.m_tolerance / loosened.m_tolerance;
-    return {m_body.m_body, &m_nodeIn, loosened, floor, false, {}};
+    return {m_body.m_body, &m_nodeIn, settings, floor * normOfImpulses(), false, {}};
 }
 
-// Norm of a residual [N s].
-double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
+// [N s]
+double SoftBodyContacts::normOfImpulses() const
 {
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    return goal.m_floor * std::sqrt(all);
+    return std::sqrt(all);
 }
 
 // Two surfaces separated by a gap share one point of action: the moment by the gap's lever is applied as a spin. An
@@ -71,7 +67,7 @@ Vec3 SoftBodyContacts::groupLever(const End& end, const Vec3& impulse) const
     return lever;
 }
 
-void SoftBodyContacts::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)
+void SoftBodyContacts::takeExpected(const StepSettings& settings, double floor)
 {
     if (m_ends.empty()) return giveUpExpected(settings);
     addLevers(settings);
@@ -89,7 +85,7 @@ void SoftBodyContacts::takeExpected(const StepSettings& settings, const Correcti
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);
     scratch.m_momentum.restore(body, scratch.m_velocity);
-    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
+    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floor * normOfImpulses();
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
 
@@ -164,11 +160,8 @@ bool SoftBodyContacts::isAboveRounding(const Lesson& lesson) const
 
 void SoftBodyContacts::learn(const Lesson& lesson)
 {
-    const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!(softer || stiffer) || !isAboveRounding(lesson) || !hasContacts()) return;
-    m_tooSoft = m_tooSoft || softer;
-    if (!stiffer) return;
+    if (!stiffer || !isAboveRounding(lesson) || !hasContacts()) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
     m_learnt = true;
     m_scale *= factor;

@@ -29,9 +29,9 @@ class ContactRows
 {
 public:
     /// Computes sides, frames and compliance of all rows, from free velocities of bodies and present ones of rigid
-    /// proxies. `goal`: required accuracy of the bodies' solves for the initial impulses. The problem must live until
-    /// the step is over.
-    void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
+    /// proxies. `floor` of the bodies' solves: see SoftBodyContacts::beginCorrection(). The problem must live until the
+    /// step is over.
+    void assemble(ContactProblem& problem, const ContactSettings& settings, double floor);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
@@ -157,11 +157,7 @@ public:
 
     /// Solves the bodies' true systems for the new impulses. `steady`: all impulses are those of a step similar to the
     /// previous one. Returns whether the rows' compliance has changed.
-    bool apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
-
-    /// True if a body has responded less than its compliance predicted: each outer iteration then removes only part of
-    /// the error.
-    bool isTooSoft() const;
+    bool apply(double floor, bool steady, ContactReport& report);
 
     /// Maximum excess of a contact's true approach speed over the allowed one, and of the speeds that joints must
     /// change from zero impulses [m/s].

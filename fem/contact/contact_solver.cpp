@@ -81,9 +81,7 @@ struct ContactSolver::Scratch
     bool m_holdsSoft = false;  // joints hold soft bodies
     bool m_isCalm = false;     // the warm start was accurate
     double m_goal = 0;         // error at which outer iterations end
-    bool m_loose = false;      // the last corrective solves were loose
     double m_floor = 0;        // share of a body's impulses that residuals are measured against
-    bool m_guessing = false;   // the impulses are the warm start
     SweepProgress m_progress;
     bool m_stalled = false;
     bool m_othersMoved = false;  // rows of others changed velocities in this outer iteration
@@ -102,11 +100,8 @@ constexpr double kNoJointSpeed = 1e-6;
 constexpr int kMoreRounds = 2;            // factor on the maximum number, for strained bodies
 constexpr double kUnsolvedJoints = 0.05;  // remaining share that is reported as not converged
 
-// Residuals of a body's corrective solves are limited to a share of the tolerance. If more outer iterations than usual
-// do not suffice, each further one is solved more accurately, down to the accuracy used for joints.
+// Residuals of a body's corrective solves are limited to a share of the tolerance, and to one that joints need.
 constexpr double kResidualShare = 0.3;
-constexpr int kUsualRounds = 3;
-constexpr double kCloser = 0.3;
 constexpr double kFinestFloor = 1e-3;
 
 // The tolerance of a fast impact is a share of a high speed: the remaining error must not let thin and tiny bodies
@@ -114,17 +109,8 @@ constexpr double kFinestFloor = 1e-3;
 constexpr double kErrorOfEdge = 5e-4;      // share of an element's edge [-]
 constexpr double kFinestTolerance = 1e-7;  // still above rounding [-]
 
-// The total of further sweeps is several times the change by one: with a larger tolerance, piles would take seconds
-// longer to come to rest.
-constexpr double kCoarsestChange = 3e-3;  // change at which sweeps end
-
 // Rows of others may be solved in single precision.
 constexpr double kRoundingOfOthers = 1e-6;  // [m/s]
-
-// While the error is far above the tolerance, another outer iteration follows in any case and removes the residual of
-// this corrective solve: a larger share of its right-hand side is allowed.
-constexpr double kFarFromTolerance = 30;
-constexpr double kLooseShare = 0.1;
 
 // Every step reduces the error of the warm start by this factor, to the tolerance at least: errors of resting contacts,
 // which are passed on from step to step, vanish within a few. A much better warm start needs no outer iteration.
@@ -146,13 +132,9 @@ constexpr double kBadGuess = 5;
 constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 
 // If an outer iteration leaves more than this share of a small error, the error is that of the corrective solves, or of
-// sliding points that pass load on gradually, which the next step corrects. If W is too soft, every outer iteration
-// removes only a part. Impacts may take several iterations without visible progress.
-struct Standstill
-{
-    double m_share, m_smallError;
-};
-constexpr Standstill kStandstill = {0.8, 5e-3}, kStandstillWhereSoft = {0.97, 1e-3};
+// sliding points that pass load on gradually, which the next step corrects. Impacts may take several iterations without
+// visible progress.
+constexpr double kStandstill = 0.8, kSmallError = 5e-3;
 
 }  // namespace
 
@@ -196,14 +178,14 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     const auto holdsSoft = [](const Joint& joint) { return joint.m_a.m_body >= 0 || joint.m_b.m_body >= 0; };
     s.m_holdsSoft = std::any_of(problem.m_joints.begin(), problem.m_joints.end(), holdsSoft);
     s.m_floor = s.m_holdsSoft ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
-    s.m_rows.assemble(problem, settings, {s.m_floor, 0});
+    s.m_rows.assemble(problem, settings, s.m_floor);
     s.m_sweeps.begin();
     s.m_gcr.begin();
     s.m_push.begin();
     s.m_error = 1;
     s.m_isCalm = false;
     s.m_progress = {};
-    s.m_stalled = s.m_loose = s.m_othersMoved = false;
+    s.m_stalled = s.m_othersMoved = false;
     const double missing = s.m_rows.missingSpeed();
     s.m_rows.setSpeedScale(missing);
     // The warm start is first tested on the true system, so that W serves only for the difference.
@@ -259,9 +241,7 @@ void ContactSolver::guess()
     Scratch& s = *m_scratch;
     const double without = s.m_rows.speedScale();
     s.m_rows.warmStart();
-    s.m_guessing = true;
-    correct();
-    s.m_guessing = false;
+    correct(true);
     const auto isBad = [&] { return std::max(s.m_found.m_closing, s.m_found.m_guessed) > kBadGuess * without; };
     if (!isBad()) return;
     for (int k = 0; k < s.m_settings.m_sweeps && sweep();) ++k;
@@ -310,7 +290,7 @@ bool ContactSolver::needsOuterIteration() const
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
     const int most = (errorOfJoints() > kJointTolerance ? kMoreRounds : 1) * s.m_settings.m_maxRounds;
-    return rounds < s.m_settings.m_rounds || (rounds < most && (s.m_loose || (s.m_error > s.m_goal && !s.m_stalled)));
+    return rounds < s.m_settings.m_rounds || (rounds < most && s.m_error > s.m_goal && !s.m_stalled);
 }
 
 bool ContactSolver::sweep(double others)
@@ -320,12 +300,11 @@ bool ContactSolver::sweep(double others)
     ++s.m_report.m_sweeps;
     if (s.m_begins) s.m_gcr.combine();
     s.m_begins = false;
-    const double tolerance = s.m_settings.m_tolerance;
     const double othersChange = s.m_rows.share(others);
-    const bool othersMove = others > kRoundingOfOthers && othersChange > tolerance;
+    const bool othersMove = others > kRoundingOfOthers && othersChange > s.m_settings.m_tolerance;
     if (othersMove) s.m_sweeps.othersMoved();
     s.m_othersMoved = s.m_othersMoved || othersMove;
-    const bool moves = s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(tolerance, kCoarsestChange) : tolerance);
+    const bool moves = s.m_sweeps.sweep(s.m_settings.m_tolerance);
     if (s.m_sweeps.runsAway())
     {
         s.m_sweeps.letGo();
@@ -338,17 +317,17 @@ bool ContactSolver::sweep(double others)
 
 void ContactSolver::correct()
 {
+    correct(false);
+}
+
+void ContactSolver::correct(bool steady)
+{
     Scratch& s = *m_scratch;
     if (s.m_empty) return;
     ++s.m_report.m_rounds;
     s.m_progress = {};
     if (s.m_isCalm) s.m_sweeps.end();
-    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
-    const bool wasLoose = s.m_loose;
-    s.m_loose = !s.m_holdsSoft && !s.m_guessing && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
-                s.m_error > kFarFromTolerance * s.m_settings.m_tolerance;
-    if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, s.m_guessing, s.m_report))
-        s.m_sweeps.joints().reform();
+    if (s.m_rows.apply(s.m_floor, steady, s.m_report)) s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
     s.m_gcr.look(s.m_othersMoved);
     s.m_othersMoved = false;
@@ -357,10 +336,8 @@ void ContactSolver::correct()
     s.m_found = s.m_sweeps.look();
     s.m_error = errorNow();
     s.m_goal = s.m_settings.m_tolerance;
-    const Standstill limit = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
-    s.m_stalled = !s.m_settings.m_untilSolved && !wasLoose && s.m_report.m_rounds > s.m_settings.m_rounds + 1 &&
-                  s.m_error > limit.m_share * before && s.m_error < limit.m_smallError &&
-                  errorOfJoints() <= kJointTolerance;
+    s.m_stalled = s.m_report.m_rounds > s.m_settings.m_rounds + 1 && s.m_error > kStandstill * before &&
+                  s.m_error < kSmallError && errorOfJoints() <= kJointTolerance;
     noteBest();
 }
 

@@ -144,7 +144,6 @@ TEST(Contact, IsSweptAsLongAsOthersMove)
     scene.touchLowerFace(0, 0.5);
     scene.m_problem.m_bodies = {{&scene.m_body, scene.m_cache.get()}};
     solveFreeMotion(scene.m_body, scene.m_settings.m_step);
-    scene.m_settings.m_untilSolved = true;
     scene.m_solver.begin(scene.m_problem, scene.m_settings);
     const auto sweepsUntilDone = [&](auto others)
     {

@@ -41,7 +41,7 @@ protected:
         m_scene.touchLowerFace(0, 0);
         m_scene.m_settings.m_denseLimit = GetParam();
         m_scene.m_settings.m_maxRounds = 60;
-        m_scene.m_settings.m_untilSolved = true;
+        m_scene.m_settings.m_rounds = 60;
         m_scene.m_settings.m_tolerance = 1e-7;
     }
 

@@ -168,7 +168,6 @@ struct ContactSettings
     /// mean element edge per step. Joints are solved to 1e-3 of the speed that loads give, and of the impulses on their
     /// bodies.
     double m_tolerance = 3e-5;
-    bool m_untilSolved = false;    ///< outer iterations continue to m_maxRounds even if they hardly lower the error
     int m_denseLimit = 400;        ///< maximum number of points of a body for a dense compliance matrix, >= 0
     double m_pushFraction = 0.2;   ///< share of a penetration corrected per step [-], in [0, 1]
     double m_maxPushVelocity = 1;  ///< maximum speed of penetration correction [m/s], >= 0

@@ -75,6 +75,7 @@ public:
 
 private:
     void guess();
+    void correct(bool steady);
     void noteBest();
     double errorNow() const;
     double errorOfJoints() const;
