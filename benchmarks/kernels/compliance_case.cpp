@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bullet_fem/fem/mesh/generators.h"
-#include "fem/contact/compliance_cache.h"
+#include "fem/contact/compliance/compliance_cache.h"
 #include "fem/factor/rest_factor.h"
 
 namespace bullet_fem

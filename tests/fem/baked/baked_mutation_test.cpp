@@ -8,7 +8,7 @@
 
 #include "bullet_fem/fem/contact/contact_solver.h"
 #include "bullet_fem/fem/step/stepping.h"
-#include "fem/contact/compliance_cache.h"
+#include "fem/contact/compliance/compliance_cache.h"
 #include "fem/factor/rest_factor.h"
 #include "fem/scenes/baked_files.h"
 

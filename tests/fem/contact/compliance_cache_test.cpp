@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/compliance_cache.h"
+#include "fem/contact/compliance/compliance_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "fem/contact/sweep_parts.h"
+#include "fem/contact/solver/sweep_parts.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/envelope_factor.h"
+#include "fem/contact/compliance/envelope_factor.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "fem/contact/row_products.h"
+#include "fem/contact/compliance/row_products.h"
 
 namespace bullet_fem
 {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bullet_fem/fem/step/stepping.h"
-#include "fem/contact/compliance_cache.h"
-#include "fem/contact/rotated_anchor_factor.h"
+#include "fem/contact/compliance/compliance_cache.h"
+#include "fem/contact/solver/rotated_anchor_factor.h"
 #include "fem/scenes/contact_scene.h"
 
 namespace bullet_fem

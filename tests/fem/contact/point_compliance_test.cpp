@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/point_compliance.h"
+#include "fem/contact/compliance/point_compliance.h"
 
 #include <random>
 
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/body/step_scratch.h"
-#include "fem/contact/compliance_cache.h"
-#include "fem/contact/compliance_kernel.h"
+#include "fem/contact/compliance/compliance_cache.h"
+#include "fem/contact/compliance/compliance_kernel.h"
 #include "fem/scenes/element_case.h"
 #include "fem/solve/warped_system.h"
 

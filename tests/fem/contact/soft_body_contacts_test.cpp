@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/soft_body_contacts.h"
+#include "fem/contact/compliance/soft_body_contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/sweep_parts.h"
+#include "fem/contact/solver/sweep_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "fem/contact/working_set.h"
+#include "fem/contact/compliance/working_set.h"
 
 #include <gtest/gtest.h>
 
