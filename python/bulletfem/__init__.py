@@ -24,6 +24,7 @@ from ._core import (
     touch_dtype,
 )
 from ._png import png as _png
+from ._recipe import make, reduce as _reduce
 
 
 def _repr_png_(self: World) -> bytes | None:
@@ -32,6 +33,7 @@ def _repr_png_(self: World) -> bytes | None:
 
 
 setattr(World, "_repr_png_", _repr_png_)
+setattr(World, "__reduce__", _reduce)
 
 __all__ = [
     "BakedBody",
@@ -47,5 +49,6 @@ __all__ = [
     "__version__",
     "contact_dtype",
     "has_pictures",
+    "make",
     "touch_dtype",
 ]
