@@ -23,6 +23,8 @@ from ._core import (
     has_pictures,
     touch_dtype,
 )
+from ._batch import Batch
+from ._environment import SqueezeAndLift
 from ._png import png as _png
 from ._recipe import make, reduce as _reduce
 
@@ -37,6 +39,7 @@ setattr(World, "__reduce__", _reduce)
 
 __all__ = [
     "BakedBody",
+    "Batch",
     "ElementMaterials",
     "Joint",
     "Material",
@@ -44,6 +47,7 @@ __all__ = [
     "RigidBody",
     "Shape",
     "SoftBody",
+    "SqueezeAndLift",
     "StepReport",
     "World",
     "__version__",
