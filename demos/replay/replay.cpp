@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/btFemWorldState.h"
 #include "bullet_fem/fem/mesh/generators.h"
-#include "demos/common/broadphase_state.h"
 #include "demos/common/demo.h"
 #include "demos/common/demo_measures.h"
 #include "demos/common/demo_world.h"
@@ -48,21 +48,15 @@ void play(Demo& demo, double nudge)
     const int part = static_cast<int>(demo.seconds() / kDemoStep) / 3;
     std::vector<unsigned char> saved, bytes;
     std::vector<std::uint64_t> hashes;
-    std::unique_ptr<BroadphaseState> broadphase;
     int step = 0, different = 0, restored = 0;
     do
     {
-        if (step == part)
-        {
-            world.fem().saveState(saved);
-            broadphase = std::make_unique<BroadphaseState>(world.bullet());
-            broadphase->restore();  // gives both runs an equal start
-        }
+        if (step == part) btFemWorldState::save(world.bullet(), world.fem(), saved);
+
         if (step >= part && step < 2 * part) hashes.push_back(hashOf(world.fem(), bytes));
         if (step == 2 * part)
         {
-            restored = world.fem().restoreState(saved.data(), saved.size());
-            broadphase->restore();
+            restored = btFemWorldState::restore(world.bullet(), world.fem(), saved.data(), saved.size());
             if (nudge > 0) bodies[0]->m_nodes[0].m_v += at(nudge, 0, 0);
         }
         if (step >= 2 * part && step < 3 * part)

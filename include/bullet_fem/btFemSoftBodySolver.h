@@ -328,13 +328,13 @@ public:
     /// and joints of restored bodies with objects that no longer exist are omitted. A factor that no longer exists is
     /// computed again, which takes its time.
     ///
-    /// Not saved are Bullet's data (rigid bodies, their sleep, contacts and warm starts, the order of the broad phase's
-    /// pairs) and settings that no step changes (material, detail, contact offset, m_cfg, gravity, wind, anchors,
-    /// joints, the solver's info). For bitwise equal results the program must restore these itself. Bullet's contacts
-    /// between rigid bodies cannot be restored: after saving as after restoring, remove all pairs from the pair cache
-    /// (removeOverlappingPair) and add them again in their order, so that they begin anew both times. Restore m_cid and
-    /// m_newpairs of btDbvtBroadphase, too, which decide in which step it drops old pairs, and the seed of a rigid
-    /// solver with SOLVER_RANDMIZE_ORDER (getRandSeed(), setRandSeed()). A factorization in the background is dropped.
+    /// Not saved are Bullet's data and settings that no step changes. Bullet's data are rigid bodies and multibodies,
+    /// their sleep, contacts and warm starts, the order of the broad phase's pairs, and the seed of the rigid solver:
+    /// btFemWorldState saves these together with the FEM bodies. Take it for bitwise equal results in worlds with
+    /// movable rigid bodies.
+    /// Settings are material, detail, contact offset, m_cfg, gravity, wind, anchors, joints and the solver's info. The
+    /// program must restore these itself.
+    /// A factorization in the background is dropped.
     /// To be called between steps.
     bool restoreState(const unsigned char* data, std::size_t size, std::string* why = nullptr);
 

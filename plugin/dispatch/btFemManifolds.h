@@ -23,11 +23,14 @@ public:
     /// Call after the step: fills the manifolds of pairs in contact, and releases the others.
     void update();
 
+    /// In the order of creation.
+    const std::vector<btFemPairAlgorithm*>& algorithms() const { return m_algorithms; }
+
     /// For the pairs' algorithms; may be called by several threads.
     void add(btFemPairAlgorithm* algorithm);
     void remove(btFemPairAlgorithm* algorithm);
 
 private:
     std::mutex m_mutex;
-    std::vector<btFemPairAlgorithm*> m_algorithms;  // in the order of creation
+    std::vector<btFemPairAlgorithm*> m_algorithms;
 };

@@ -144,12 +144,18 @@ void btFemPairAlgorithm::update()
         release();
 }
 
+btPersistentManifold* btFemPairAlgorithm::begin()
+{
+    if (!m_manifold) m_manifold = m_dispatcher->getNewManifold(m_objects.m_first, m_objects.m_second);
+    // Makes the rigid solver ignore all points.
+    if (m_manifold) m_manifold->setContactProcessingThreshold(-BT_LARGE_FLOAT);
+    return m_manifold;
+}
+
 void btFemPairAlgorithm::show(const btFemPair& pair)
 {
     const bool begins = !m_manifold;
-    if (begins) m_manifold = m_dispatcher->getNewManifold(m_objects.m_first, m_objects.m_second);
-    if (!m_manifold) return;                                     // Bullet's pool is full and may not grow
-    m_manifold->setContactProcessingThreshold(-BT_LARGE_FLOAT);  // makes the rigid solver ignore all points
+    if (!begin()) return;  // Bullet's pool is full and may not grow
     const Deepest deepest = deepestOf(pair);
     const int lifeTime = begins ? 0 : m_manifold->getContactPoint(0).m_lifeTime + 1;
     for (int k = 0; k < deepest.m_count; ++k)

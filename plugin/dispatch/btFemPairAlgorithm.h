@@ -27,6 +27,9 @@ public:
     /// FEM body sleeps or another world is stepped.
     void update();
 
+    /// The manifold, made if there is none, for contacts that a saved state has; null if Bullet's pool is full.
+    btPersistentManifold* begin();
+
     void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
                           btManifoldResult*) override;
     btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,

@@ -27,6 +27,7 @@ static_assert(sizeof(Header) == 40, "no padding: it is copied as it is");
 
 const char* nameOf(btFemContents contents)
 {
+    if (contents == btFemContents::world) return "the state of a world";
     return contents == btFemContents::state ? "a saved state" : "a body's definition";
 }
 

@@ -3,31 +3,13 @@
 #include <string>
 
 #include "bullet_fem/btFemSoftBodySolver.h"
-#include "fem/common/attempt.h"
-#include "fem/common/message.h"
 #include "plugin/dispatch/btFemManifolds.h"
 #include "plugin/record/btFemCoupling.h"
 #include "plugin/snapshot/btFemDefinition.h"
+#include "plugin/snapshot/btFemEnvelope.h"
 #include "plugin/snapshot/btFemSnapshot.h"
 
 using namespace bullet_fem;
-
-namespace
-{
-
-// attempt() with the name of the caller in the message.
-template <class Call>
-bool attemptAs(const char* name, std::string* why, const Call& call)
-{
-    return attempt(why,
-                   [&]
-                   {
-                       std::string reason;
-                       if (!attempt(&reason, call)) reject(name, ": ", reason);
-                   });
-}
-
-}  // namespace
 
 bool btFemSoftBodySolver::saveState(std::vector<unsigned char>& buffer, std::string* why) const
 {
@@ -39,7 +21,7 @@ bool btFemSoftBodySolver::saveState(std::vector<unsigned char>& buffer, std::str
 bool btFemSoftBodySolver::restoreState(const unsigned char* data, std::size_t size, std::string* why)
 {
     const bool restored =
-        attemptAs("restoreState", why, [&] { restoreSnapshot(btFemCoupling::snapshotScope(*this), data, size); });
+        attemptAs("restoreState", why, [&] { checkedSnapshot(btFemCoupling::snapshotScope(*this), data, size)(); });
     const auto manifolds = btFemCoupling::manifolds(*this);
     if (restored && manifolds) manifolds->update();
     return restored;

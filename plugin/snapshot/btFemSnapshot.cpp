@@ -131,6 +131,32 @@ void checkRecord(const btFemRecordSnapshot& s, const btFemBodyRecord& record, co
     }
 }
 
+/// A snapshot, its bodies in the world and their factors.
+struct CheckedSnapshot
+{
+    WorldSnapshot m_snapshot;
+    std::vector<btFemBodyRecord*> m_bodies;
+    WorldIds m_world;
+    std::vector<Models> m_models;
+};
+
+void restoreChecked(const btFemSnapshotScope& scope, const CheckedSnapshot& checked)
+{
+    const WorldSnapshot& snapshot = checked.m_snapshot;
+    const std::vector<btFemBodyRecord*>& bodies = checked.m_bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+    {
+        scope.m_setUp.giveFactors(*bodies[b], checked.m_models[b].m_model, checked.m_models[b].m_former);
+        restore(snapshot.m_bodies[b], checked.m_world, *bodies[b]);
+    }
+    scope.m_registry.putFirst(bodies);
+    scope.m_group.softPairs().restore(snapshot.m_softPairs);
+    scope.m_group.rigid().history().restore(snapshot.m_rigid);
+    scope.m_group.welds().setTime(snapshot.m_time);
+    scope.m_group.welds().clearBreaks();
+    scope.m_splitter.clearSplits();
+}
+
 }  // namespace
 
 void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& buffer)
@@ -148,7 +174,7 @@ void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& b
     closeEnvelope(buffer);
 }
 
-void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size)
+std::function<void()> checkedSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size)
 {
     WorldSnapshot snapshot = read(data, size);
     const std::vector<btFemBodyRecord*> records = livingRecords(scope);
@@ -163,15 +189,6 @@ void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data,
     for (std::size_t b = 0; b < bodies.size(); ++b)
         models.push_back(modelsOf(snapshot.m_bodies[b], *bodies[b], scope.m_setUp));
 
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-    {
-        scope.m_setUp.giveFactors(*bodies[b], models[b].m_model, models[b].m_former);
-        restore(snapshot.m_bodies[b], world, *bodies[b]);
-    }
-    scope.m_registry.putFirst(bodies);
-    scope.m_group.softPairs().restore(snapshot.m_softPairs);
-    scope.m_group.rigid().history().restore(snapshot.m_rigid);
-    scope.m_group.welds().setTime(snapshot.m_time);
-    scope.m_group.welds().clearBreaks();
-    scope.m_splitter.clearSplits();
+    return [scope, checked = CheckedSnapshot{std::move(snapshot), bodies, world, models}]
+    { restoreChecked(scope, checked); };
 }

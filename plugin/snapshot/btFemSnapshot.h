@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
@@ -28,6 +29,7 @@ struct btFemSnapshotScope
 /// within a step, or if no body refers to the world's broad phase.
 void saveSnapshot(const btFemSnapshotScope& scope, std::vector<unsigned char>& buffer);
 
-/// Restores a saved state. Throws std::invalid_argument with the reason, and changes nothing, unless the state is
-/// complete and all of its bodies are in the world with equal elements and material.
-void restoreSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size);
+/// The call that restores a saved state and throws nothing. The objects of `scope` must live until then, unchanged but
+/// for Bullet's pairs and rigid bodies. Throws std::invalid_argument with the reason unless the state is complete and
+/// all of its bodies are in the world with equal elements and material.
+std::function<void()> checkedSnapshot(const btFemSnapshotScope& scope, const unsigned char* data, std::size_t size);

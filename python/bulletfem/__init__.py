@@ -23,7 +23,10 @@ from ._core import (
     has_pictures,
     touch_dtype,
 )
+from ._batch import Batch
+from ._environment import SqueezeAndLift
 from ._png import png as _png
+from ._recipe import make, reduce as _reduce
 
 
 def _repr_png_(self: World) -> bytes | None:
@@ -32,9 +35,11 @@ def _repr_png_(self: World) -> bytes | None:
 
 
 setattr(World, "_repr_png_", _repr_png_)
+setattr(World, "__reduce__", _reduce)
 
 __all__ = [
     "BakedBody",
+    "Batch",
     "ElementMaterials",
     "Joint",
     "Material",
@@ -42,10 +47,12 @@ __all__ = [
     "RigidBody",
     "Shape",
     "SoftBody",
+    "SqueezeAndLift",
     "StepReport",
     "World",
     "__version__",
     "contact_dtype",
     "has_pictures",
+    "make",
     "touch_dtype",
 ]

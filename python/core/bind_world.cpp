@@ -54,6 +54,14 @@ WorldPointer fromScene(const std::filesystem::path& path)
     return std::make_shared<World>(std::move(bullet), step, false);
 }
 
+/// Remembers how the world is made again when it is unpickled (bulletfem/_recipe.py).
+py::object fromRememberedScene(const std::filesystem::path& path)
+{
+    py::object world = py::cast(fromScene(path));
+    world.attr("_recipe") = py::make_tuple(py::none(), std::filesystem::absolute(path).string());
+    return world;
+}
+
 py::list bodiesOf(const WorldPointer& world, bool soft)
 {
     world->guard().reading();
@@ -120,7 +128,7 @@ py::object bodyOf(const WorldPointer& world, int index)
 WorldClass bindWorld(py::module_& module)
 {
     WorldClass world(
-        module, "World", py::module_local(),
+        module, "World", py::module_local(), py::dynamic_attr(),
         "A world of soft and rigid bodies that is stepped by a constant time step. Use it from one thread at a\n"
         "time; step() releases Python's lock.");
     world
@@ -132,7 +140,7 @@ WorldClass bindWorld(py::module_& module)
              "coupled, in Bullet's world of multibodies. step [s], gravity (3,) [m/s2]; threads: 0 takes all of the\n"
              "machine's. The others are those of btFemSolverInfo.")
         .def_static(
-            "from_scene", &fromScene, py::arg("path"),
+            "from_scene", &fromRememberedScene, py::arg("path"),
             "The world of a JSON scene (docs/scenes.md), which moves its kinematic bodies, forces and actuators.")
         .def_property(
             "gravity",

@@ -19,6 +19,16 @@ namespace bullet_fem::python
 namespace
 {
 
+// Manifolds and algorithms in the pools of a world; more are allocated one by one. Bullet's 4096 take 7 MB.
+constexpr int kPooledPairs = 64;
+
+btDefaultCollisionConstructionInfo smallPools()
+{
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = kPooledPairs;
+    return info;
+}
+
 template <class World, class RigidSolver>
 class OwnWorld : public BulletWorld
 {
@@ -46,7 +56,7 @@ private:
             return std::make_unique<RigidSolver>();
     }
 
-    btSoftBodyRigidBodyCollisionConfiguration m_configuration;
+    btSoftBodyRigidBodyCollisionConfiguration m_configuration{smallPools()};
     btCollisionDispatcher m_dispatcher{&m_configuration};
     btDbvtBroadphase m_broadphase;
     btFemSoftBodySolver m_fem;

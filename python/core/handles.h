@@ -91,6 +91,7 @@ void bindMeshes(py::module_& module);
 void bindShapes(py::module_& module);
 void bindReports(py::module_& module);
 WorldClass bindWorld(py::module_& module);
+void bindState(WorldClass& world);
 void bindStepping(WorldClass& world);
 void bindMakers(WorldClass& world);
 void bindJoints(py::module_& module, WorldClass& world);
@@ -104,5 +105,6 @@ void bindActuators(SoftClass& body);
 void bindBreaking(SoftClass& body, WorldClass& world);
 void bindRays(SoftClass& body, WorldClass& world);
 void bindPictures(WorldClass& world);
+void bindBatch(py::module_& module);
 
 }  // namespace bullet_fem::python

@@ -24,6 +24,7 @@ PYBIND11_MODULE(_core, module)
     WorldClass world = bindWorld(module);
     bindRigidBodies(module);
     SoftClass body = bindSoftBodies(module);
+    bindState(world);
     bindStepping(world);
     bindMakers(world);
     bindJoints(module, world);
@@ -35,5 +36,6 @@ PYBIND11_MODULE(_core, module)
     bindBreaking(body, world);
     bindRays(body, world);
     bindPictures(world);
+    bindBatch(module);
     module.attr("__name__") = "bulletfem._core";
 }

@@ -6,26 +6,13 @@
 #include <utility>
 
 #include "bullet_fem/btFemHelpers.h"
+#include "python/core/shared_bodies.h"
 #include "tools/scene/scene_world_materials.h"
 
 namespace bullet_fem::python
 {
 namespace
 {
-
-/// A cage is baked in memory, because that keeps its filled fractions and the surface in it.
-BakedBody bakedCage(const World& world, const SoftRequest& request)
-{
-    const ElementMaterials& materials = request.m_materials;
-    BakeSettings settings;
-    settings.m_material = materials.m_base;
-    settings.m_labels = materials.m_labels;
-    settings.m_regionMaterials = materials.m_ofLabel;
-    settings.m_step = world.stepSize();
-    settings.m_pins = request.m_pins;
-    settings.m_singlePrecision = false;
-    return bakeBody(*request.m_mesh->m_cage, request.m_mesh->m_surface, settings);
-}
 
 void useBaked(World& world, SoftEntry& entry, const BakedBody& baked)
 {
@@ -39,8 +26,12 @@ void useBaked(World& world, SoftEntry& entry, const BakedBody& baked)
 void makeBody(World& world, SoftEntry& entry, const SoftRequest& request)
 {
     if (request.m_baked) return useBaked(world, entry, *request.m_baked);
-    if (request.m_mesh->m_cage) return useBaked(world, entry, bakedCage(world, request));
-    entry.m_own.reset(btFemHelpers::createFromTetMesh(world.bullet().info(), request.m_mesh->m_tets));
+    const Mesh& mesh = *request.m_mesh;
+    if (const BakedBody* shared = SharedBodies::find(world, request)) return useBaked(world, entry, *shared);
+    // A cage is baked in memory, because that keeps its filled fractions and the surface in it.
+    if (mesh.m_cage)
+        return useBaked(world, entry, bakeBody(*mesh.m_cage, mesh.m_surface, bakeSettings(world, request)));
+    entry.m_own.reset(btFemHelpers::createFromTetMesh(world.bullet().info(), mesh.m_tets));
 }
 
 void place(btSoftBody& body, const SoftRequest& request)
@@ -55,6 +46,19 @@ void place(btSoftBody& body, const SoftRequest& request)
 
 }  // namespace
 
+BakeSettings bakeSettings(const World& world, const SoftRequest& request)
+{
+    const ElementMaterials& materials = request.m_materials;
+    BakeSettings settings;
+    settings.m_material = materials.m_base;
+    settings.m_labels = materials.m_labels;
+    settings.m_regionMaterials = materials.m_ofLabel;
+    settings.m_step = world.stepSize();
+    settings.m_pins = request.m_pins;
+    settings.m_singlePrecision = false;
+    return settings;
+}
+
 int addSoft(World& world, const SoftRequest& request)
 {
     auto entry = std::make_unique<SoftEntry>();
@@ -63,8 +67,8 @@ int addSoft(World& world, const SoftRequest& request)
         makeBody(world, *entry, request);
         btSoftBody* body = entry->m_body = entry->m_own.get();
         entry->m_turn = request.m_pose.getBasis();
-        const bool isOfCage = request.m_mesh && request.m_mesh->m_cage;
-        const bool isBakedWhole = isOfCage && (request.m_materials.isOne() || !request.m_materials.m_labels.empty());
+        const bool isBaked = request.m_baked || request.m_mesh->m_cage || SharedBodies::find(world, request);
+        const bool isBakedWhole = isBaked && (request.m_materials.isOne() || !request.m_materials.m_labels.empty());
         if (!request.m_baked && !isBakedWhole) setMaterials(world, *entry, request.m_materials);
         setPins(*entry, request.m_pins);
         place(*body, request);

@@ -27,6 +27,9 @@ struct SoftRequest
     int m_group = 1, m_mask = -1;
 };
 
+/// The settings by which a body with one material, or with one for each label, is baked for the world.
+BakeSettings bakeSettings(const World& world, const SoftRequest& request);
+
 /// Makes and adds the body, and returns its index. Throws std::invalid_argument or std::runtime_error; the world is
 /// unchanged then.
 int addSoft(World& world, const SoftRequest& request);

@@ -56,6 +56,7 @@ public:
     void finishStep();
 
 private:
+    friend struct WorldState;
     void registerScene();
 
     std::unique_ptr<btFemInterest> m_interest;
