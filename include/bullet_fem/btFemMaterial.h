@@ -102,6 +102,23 @@ struct BULLETFEM_API btFemMaterial
     static btFemMaterial lead();      ///< 16 GPa, nu .44, 11340 kg/m3, yields at 5.5 MPa and hardens by 20 MPa
     static btFemMaterial mildFoam();  ///< foam that keeps dents: as foam(), yields at 2.5 kPa, with a creep of 2 / s
 
+    /// Rubber by its hardness on Shore's scale A, in [10, 95]: E by Gent's formula, nu from a bulk modulus of 2 GPa,
+    /// 1100 kg/m3, a loss factor of 0.1 at 10 Hz, Hooke's law with mean dilatation (docs/materials.md, Rubber by
+    /// hardness). Outside the range: if `why` is given, it names the value, the range and the remedy, and the default
+    /// material is returned; else std::invalid_argument is thrown.
+    static btFemMaterial shoreA(btScalar hardness, std::string* why = nullptr);
+    /// Hard rubber and thermoplastic elastomers by hardness on Shore's scale D, in [30, 70], as shoreA() with 1200
+    /// kg/m3 and the fit of E by Qi, Joyce and Boyce.
+    static btFemMaterial shoreD(btScalar hardness, std::string* why = nullptr);
+
+    /// Sets m_stiffnessDamping so that the loss factor [-], in [0, 2], of a vibration of `frequency` [Hz], in [1e-3,
+    /// 1e5], is `lossFactor`, beside m_massDamping, which stays. The loss factor grows in proportion to the frequency.
+    /// Returns false, with the reason in `why`, outside the ranges, if m_massDamping alone gives more, or if
+    /// m_stiffnessDamping would be above 10 s; without `why` it throws std::invalid_argument.
+    bool setLossFactor(btScalar lossFactor, btScalar frequency, std::string* why = nullptr);
+    /// The loss factor [-] at a frequency [Hz]: alpha / w + beta w, w = 2 pi frequency.
+    btScalar lossFactor(btScalar frequency) const;
+
     /// True if every value is finite and in its range; else `why` (if given) names the value, the range and the remedy.
     bool valid(std::string* why = nullptr) const;
 };

@@ -3,6 +3,8 @@
 #include "bullet_fem/btFemMaterial.h"
 
 #include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/elastomer.h"
+#include "fem/common/attempt.h"
 #include "plugin/setup/btFemMaterialConversion.h"
 
 namespace
@@ -19,6 +21,14 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
     result.m_hardeningModulus = static_cast<btScalar>(material.m_hardeningModulus);
     result.m_plasticCreep = static_cast<btScalar>(material.m_plasticCreep);
     result.m_mostPlasticStrain = static_cast<btScalar>(material.m_mostPlasticStrain);
+    return result;
+}
+
+// With the damping of the preset, which fromCore() leaves at the default.
+btFemMaterial fromElastomer(const bullet_fem::Material& material)
+{
+    btFemMaterial result = fromCore(material);
+    result.m_stiffnessDamping = static_cast<btScalar>(material.m_stiffnessDamping);
     return result;
 }
 
@@ -113,6 +123,31 @@ btFemMaterial btFemMaterial::lead()
 btFemMaterial btFemMaterial::mildFoam()
 {
     return fromCore(bullet_fem::Material::mildFoam());
+}
+
+btFemMaterial btFemMaterial::shoreA(btScalar hardness, std::string* why)
+{
+    return bullet_fem::attemptValue(why, [=] { return fromElastomer(bullet_fem::shoreA(hardness)); });
+}
+btFemMaterial btFemMaterial::shoreD(btScalar hardness, std::string* why)
+{
+    return bullet_fem::attemptValue(why, [=] { return fromElastomer(bullet_fem::shoreD(hardness)); });
+}
+
+bool btFemMaterial::setLossFactor(btScalar lossFactor, btScalar frequency, std::string* why)
+{
+    return bullet_fem::attempt(why,
+                               [&]
+                               {
+                                   bullet_fem::Material core = coreMaterial(*this);
+                                   bullet_fem::setLossFactor(core, lossFactor, frequency);
+                                   m_stiffnessDamping = static_cast<btScalar>(core.m_stiffnessDamping);
+                               });
+}
+
+btScalar btFemMaterial::lossFactor(btScalar frequency) const
+{
+    return static_cast<btScalar>(bullet_fem::lossFactor(coreMaterial(*this), frequency));
 }
 
 bool btFemMaterial::valid(std::string* why) const

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "bullet_fem/fem/mesh/elastomer.h"
 #include "python/core/handles.h"
 #include "python/core/materials.h"
 
@@ -239,6 +240,13 @@ void bindMaterials(py::module_& module)
     for (const auto& [name, make] : presets)
         material.def_static(
             name, [make = make] { return damped(make()); }, "A preset of docs/materials.md.");
+    material
+        .def_static("shore_a", &shoreA, py::arg("hardness"), "Rubber of a hardness on Shore's scale A, in [10, 95].")
+        .def_static("shore_d", &shoreD, py::arg("hardness"),
+                    "Hard rubber or thermoplastic elastomer of a hardness on Shore's scale D, in [30, 70].")
+        .def("set_loss_factor", &setLossFactor, py::arg("loss_factor"), py::arg("frequency"),
+             "Sets stiffness_damping so that the loss factor [-] at a frequency [Hz] is this; mass_damping stays.")
+        .def("loss_factor", &lossFactor, py::arg("frequency"), "The loss factor [-] at a frequency [Hz].");
     material.attr("__hash__") = py::none();
     bindElementMaterials(module);
 }

@@ -2,6 +2,10 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene/scene_materials.h"
 
+#include <stdexcept>
+#include <string>
+
+#include "bullet_fem/fem/mesh/elastomer.h"
 #include "fem/common/bounds.h"
 
 namespace bullet_fem
@@ -60,6 +64,34 @@ void readOrthotropic(const JsonCursor& at, Material& material)
     material.m_youngModulus = constants.m_young[0];
 }
 
+// Material whose values hold where the members give none.
+Material baseMaterial(const JsonCursor& at, const SceneMaterials& known)
+{
+    if (int(at.has("like")) + int(at.has("shoreA")) + int(at.has("shoreD")) > 1)
+        at.fail("has two of 'like', 'shoreA' and 'shoreD', which give all values; give one");
+    if (at.has("shoreA")) return shoreA(at["shoreA"].number({kMinShoreA, kMaxShoreA}));
+    if (at.has("shoreD")) return shoreD(at["shoreD"].number({kMinShoreD, kMaxShoreD}));
+    return at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
+}
+
+void readLoss(const JsonCursor& at, Material& material)
+{
+    if (!at.has("loss")) return;
+    if (at.has("stiffnessDamping"))
+        at.fail("has both 'loss' and 'stiffnessDamping', which the loss factor determines; give one");
+    const JsonCursor loss = at["loss"];
+    loss.onlyMembers({"factor", "frequency"});
+    const double factor = loss["factor"].number({0, 2}), frequency = loss["frequency"].number({1e-3, 1e5});
+    try
+    {
+        setLossFactor(material, factor, frequency);
+    }
+    catch (const std::invalid_argument& error)
+    {
+        loss.fail(std::string("is no damping: ") + error.what());
+    }
+}
+
 }  // namespace
 
 Material defaultMaterial()
@@ -86,16 +118,17 @@ const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known
 
 Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
 {
-    at.onlyMembers({"like", "young", "poisson", "density", "massDamping", "stiffnessDamping", "meanDilatation",
-                    "accurateBending", "yieldStress", "hardening", "plasticCreep", "mostPlasticStrain", "relaxation",
-                    "law", "orthotropic"});
+    at.onlyMembers({"like", "shoreA", "shoreD", "young", "poisson", "density", "massDamping", "stiffnessDamping",
+                    "loss", "meanDilatation", "accurateBending", "yieldStress", "hardening", "plasticCreep",
+                    "mostPlasticStrain", "relaxation", "law", "orthotropic"});
     if (at.has("law") && at.has("orthotropic")) at.fail("has both 'law' and 'orthotropic', which is a law; give one");
-    Material material = at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
+    Material material = baseMaterial(at, known);
     at.read("young", {0, 1e13, true}, material.m_youngModulus);
     at.read("poisson", {0, Material::kMaxPoissonRatio}, material.m_poissonRatio);
     at.read("density", {0, 1e6, true}, material.m_density);
     at.read("massDamping", {0, 1e4}, material.m_massDamping);
     at.read("stiffnessDamping", {0, 10}, material.m_stiffnessDamping);
+    readLoss(at, material);
     if (at.has("meanDilatation"))
         material.m_meanDilatation = static_cast<MeanDilatation>(at["meanDilatation"].choice({"auto", "on", "off"}));
     at.read("accurateBending", material.m_accurateBending);
