@@ -7,32 +7,33 @@
 #include "fem/body/internal_stress.h"
 #include "fem/body/step_scratch.h"
 #include "fem/common/chunks.h"
+#include "fem/elements/law_points.h"
 #include "fem/elements/model_elements.h"
+#include "fem/laws/prony.h"
+#include "fem/laws/von_mises.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-/// Ratio of the equivalent uniaxial strain to the norm of a deviatoric strain, and of the norm of a stress deviator to
-/// the uniaxial stress.
-const double kOfUniaxial = std::sqrt(2.0 / 3);
-
-/// A material's coefficients for one step.
+/// A material's laws for one step.
 struct InelasticLaw
 {
     InelasticLaw(const Material& material, double step)
         : m_material(material),
+          m_law(lawOf(material.m_law)),
           m_flow(-std::expm1(-step * material.m_plasticCreep)),
           m_terms(material.relaxationTerms())
     {
-        for (int i = 0; i < m_terms; ++i) m_relaxed[i] = -std::expm1(-step / material.m_relaxation[i].m_time);
+        for (int i = 0; i < m_terms; ++i) m_relaxation[i] = PronyStep(step, material.m_relaxation[i].m_time);
     }
 
     const Material& m_material;
+    const Law& m_law;
     double m_flow;  // share of the stress beyond the yield stress that relaxes in the step [-]
     int m_terms;
-    double m_relaxed[Material::kMaxRelaxationTerms];  // share of e - alpha_i that relaxes in the step [-]
+    PronyStep m_relaxation[Material::kMaxRelaxationTerms];
 };
 
 class InelasticStrain
@@ -53,15 +54,20 @@ public:
         // Skips slivers that are not finite in single precision.
         if (!std::isfinite(contraction(total, total))) return;
         const ElementMaterials& materials = m_body.m_model->shape().m_materials;
-        if (materials.isUniform()) return advance(e, total, m_first);
-        advance(e, total, InelasticLaw(materials.of(e), m_step));
+        if (materials.isUniform()) return advance(e, strain, m_first);
+        advance(e, strain, InelasticLaw(materials.of(e), m_step));
     }
 
 private:
-    void advance(int e, const SymmetricTensor& total, const InelasticLaw& law) const
+    void advance(int e, const SymmetricTensor& strain, const InelasticLaw& law) const
     {
-        if (law.m_terms > 0) relax(e, total, law);
-        if (law.m_material.yields()) flow(e, total, law);
+        if (law.m_terms > 0) relax(e, deviator(strain), law);
+        if (law.m_material.yields()) flow(e, deviator(strain), law);
+        if (!law.m_law.m_advance) return;
+        std::vector<double>& history = m_body.m_state.m_lawHistory;
+        const RestShape& shape = m_body.m_model->shape();
+        double* own = &history[static_cast<std::size_t>(e) * shape.m_materials.historyCount()];
+        law.m_law.m_advance(toMatrix(strain), lawPointOf(shape, e, history.data()), own);
     }
 
     void relax(int e, SymmetricTensor elastic, const InelasticLaw& law) const
@@ -69,11 +75,7 @@ private:
         BodyState& state = m_body.m_state;
         if (!state.m_plasticStrain.empty()) elastic += -1.0 * state.m_plasticStrain[e];
         SymmetricTensor* alpha = &state.m_relaxedStrain[e * m_maxTerms];
-        for (int i = 0; i < law.m_terms; ++i)
-        {
-            alpha[i] *= 1 - law.m_relaxed[i];
-            alpha[i] += law.m_relaxed[i] * elastic;
-        }
+        for (int i = 0; i < law.m_terms; ++i) law.m_relaxation[i].relax(elastic, alpha[i]);
     }
 
     void flow(int e, SymmetricTensor elastic, const InelasticLaw& law) const
@@ -81,23 +83,13 @@ private:
         const Material& material = law.m_material;
         BodyState& state = m_body.m_state;
         const RestElement& element = m_body.m_model->shape().m_elements[e];
-        const double mu = element.m_muVolume / element.m_volume, hardening = material.m_hardeningModulus;
-        SymmetricTensor& plastic = state.m_plasticStrain[e];
-        elastic += -1.0 * plastic;
+        const VonMises vonMises = {element.m_muVolume / element.m_volume, material.m_yieldStress,
+                                   material.m_hardeningModulus, law.m_flow, material.m_mostPlasticStrain};
+        elastic += -1.0 * state.m_plasticStrain[e];
         elastic += -1.0 * relaxedStrain(m_body, e);
-        SymmetricTensor s = 2 * mu * elastic;
+        SymmetricTensor s = 2 * vonMises.m_mu * elastic;
         if (!state.m_initialStress.empty()) s += deviator(state.m_initialStress[e]);
-        double& equivalent = state.m_equivalentPlasticStrain[e];
-        const double size = std::sqrt(contraction(s, s));
-        const double beyond = size - kOfUniaxial * (material.m_yieldStress + hardening * equivalent);
-        if (!(beyond > 0)) return;
-        const SymmetricTensor before = plastic;
-        const double gamma = law.m_flow * beyond / (2 * mu + 2.0 / 3 * hardening);
-        plastic += (gamma / size) * s;
-        const double norm = kOfUniaxial * std::sqrt(contraction(plastic, plastic));
-        if (norm > material.m_mostPlasticStrain) plastic *= material.m_mostPlasticStrain / norm;
-        const SymmetricTensor flown = plastic + -1.0 * before;
-        equivalent += kOfUniaxial * std::sqrt(contraction(flown, flown));
+        vonMises.flow(s, state.m_plasticStrain[e], state.m_equivalentPlasticStrain[e]);
     }
 
     Body& m_body;
@@ -136,7 +128,7 @@ void advanceAll(Body& body, const StepSettings& settings)
 void advanceInelasticStrain(Body& body, const StepSettings& settings)
 {
     const ElementMaterials& materials = body.m_model->shape().m_materials;
-    if (!materials.yields() && materials.relaxationTerms() == 0) return;
+    if (!materials.yields() && materials.relaxationTerms() == 0 && materials.historyCount() == 0) return;
     ElementWork& work = body.m_workspace.scratch().m_elements;
     const std::vector<Vec3>& x = body.m_state.m_x;
     for (std::size_t i = 0; i < x.size(); ++i) work.m_x[i] = {x[i].x, x[i].y, x[i].z, 0};

@@ -45,7 +45,7 @@ struct ElementScratch
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
     std::vector<StressBlock<Real>> m_initialStress;     ///< empty without initial stress
-    std::vector<StressBlock<Real>> m_cofactor;          ///< empty without nonlinear laws
+    std::vector<TangentBlock<Real>> m_tangent;          ///< empty without laws that vary
     std::vector<StrainBlock<Real>> m_strain;            ///< empty until inelastic strains are needed
     std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< empty without orthotropic elements
     SmoothedScratch<Real> m_smoothed;

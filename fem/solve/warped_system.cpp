@@ -60,8 +60,9 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_warped = scratch.m_warped.data();
     if (!pass.m_elements->m_law.empty())
     {
-        scratch.m_cofactor.resize(elements.blockCount());
-        pass.m_cofactor = scratch.m_cofactor.data();
+        scratch.m_tangent.resize(elements.blockCount());
+        pass.m_tangent = scratch.m_tangent.data();
+        pass.m_history = body.m_state.m_lawHistory.data();
     }
     if (hasInitialStress(body))
     {
@@ -139,7 +140,7 @@ void product(const Body& body, const Threads* threads, double stiffnessFactor, b
     const ElementBlocks<Real>& blocks = elements.blocks<Real>();
     const ElementProduct<Real> forces = {
         &blocks,         scratch.m_warped.data(),  stiffnessFactor,
-        work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_cofactor.data()};
+        work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_tangent.data()};
     const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
     if (!blocks.m_stiffness.empty())
     {

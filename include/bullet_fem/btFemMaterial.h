@@ -9,6 +9,7 @@
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
+#include "bullet_fem/fem/laws/elastic_law.h"
 
 /// Mean dilatation: whether the tetrahedra of a patch (a lattice cube, or four to eight neighbours in any other mesh)
 /// share one volume change. Linear tetrahedra with separate volume changes lock where nu is near .5.
@@ -19,13 +20,8 @@ enum class btFemMeanDilatation
     off
 };
 
-/// Constitutive law (docs/materials.md, Large strain).
-enum class btFemElasticLaw
-{
-    hooke,       ///< linear in the strain of the rotated frame
-    neoHooke,    ///< equals hooke at small strain; stiffens in tension, and without bound in compression
-    orthotropic  ///< linear as hooke, with the constants and axes of m_orthotropic instead of E and nu
-};
+/// Constitutive law: hooke, neoHooke, orthotropic, ... (docs/materials.md, Laws and elements).
+using btFemElasticLaw = bullet_fem::ElasticLaw;
 
 /// A term g_i exp(-t / tau_i) of the Prony series of the shear modulus.
 struct BULLETFEM_API btFemRelaxation
@@ -85,6 +81,9 @@ struct BULLETFEM_API btFemMaterial
     /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,
     /// pass a function of position to setMaterials.
     btFemOrthotropic m_orthotropic;
+
+    /// Constants of laws with constants of their own, in the order of docs/materials.md; 0 for the others.
+    btScalar m_lawConstants[bullet_fem::kMaxLawConstants] = {};
 
     /// A transversely isotropic material with fibres along m_orthotropic.m_along and equal directions across: Young's
     /// modulus [Pa] and Poisson's ratio [-] under tension along the fibres, and under tension across them within the

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "tools/scene/scene_materials.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "bullet_fem/fem/laws/law_table.h"
 #include "bullet_fem/fem/mesh/elastomer.h"
 #include "fem/common/bounds.h"
 
@@ -74,6 +76,34 @@ Material baseMaterial(const JsonCursor& at, const SceneMaterials& known)
     return at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
 }
 
+// A law other than orthotropic, which has an object of its own; its constants are the defaults.
+void readLaw(const JsonCursor& at, Material& material)
+{
+    ElasticLaw law = ElasticLaw::orthotropic;
+    if (!findLaw(at.text(), law) || law == ElasticLaw::orthotropic)
+        at.expected("a law that takes no axes: " + listOfLaws());
+    if (law != material.m_law) material.m_lawConstants.fill(0);
+    for (std::size_t k = 0; k < constantsOf(law).size() && law != material.m_law; ++k)
+        material.m_lawConstants[k] = constantsOf(law)[k].m_default;
+    material.m_law = law;
+}
+
+void readLawConstants(const JsonCursor& at, Material& material)
+{
+    const std::vector<LawConstant>& known = constantsOf(material.m_law);
+    std::vector<std::string> names;
+    const std::vector<JsonCursor> values = at.members(names);
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        const auto named = [&](const LawConstant& constant) { return constant.m_name == names[i]; };
+        const auto found = std::find_if(known.begin(), known.end(), named);
+        if (found == known.end())
+            at.fail("has '" + names[i].substr(0, 40) + "', which is no constant of the law " + nameOf(material.m_law));
+        const std::size_t index = static_cast<std::size_t>(found - known.begin());
+        material.m_lawConstants[index] = values[i].number({found->m_low, found->m_high});
+    }
+}
+
 void readLoss(const JsonCursor& at, Material& material)
 {
     if (!at.has("loss")) return;
@@ -120,7 +150,7 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
 {
     at.onlyMembers({"like", "shoreA", "shoreD", "young", "poisson", "density", "massDamping", "stiffnessDamping",
                     "loss", "meanDilatation", "accurateBending", "yieldStress", "hardening", "plasticCreep",
-                    "mostPlasticStrain", "relaxation", "law", "orthotropic"});
+                    "mostPlasticStrain", "relaxation", "law", "lawConstants", "orthotropic"});
     if (at.has("law") && at.has("orthotropic")) at.fail("has both 'law' and 'orthotropic', which is a law; give one");
     Material material = baseMaterial(at, known);
     at.read("young", {0, 1e13, true}, material.m_youngModulus);
@@ -137,7 +167,8 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
     at.read("plasticCreep", {0, 1e9, true}, material.m_plasticCreep);
     at.read("mostPlasticStrain", {0, 0.9, true}, material.m_mostPlasticStrain);
     if (at.has("relaxation")) readRelaxation(at["relaxation"], material);
-    if (at.has("law")) material.m_law = static_cast<ElasticLaw>(at["law"].choice({"hooke", "neoHooke"}));
+    if (at.has("law")) readLaw(at["law"], material);
+    if (at.has("lawConstants")) readLawConstants(at["lawConstants"], material);
     if (at.has("orthotropic")) readOrthotropic(at["orthotropic"], material);
     std::string why;
     if (!material.valid(&why)) at.fail("is no material: " + why);
