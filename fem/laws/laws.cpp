@@ -6,6 +6,7 @@
 #include "fem/laws/hooke.h"
 #include "fem/laws/law.h"
 #include "fem/laws/neo_hooke.h"
+#include "fem/laws/ogden.h"
 #include "fem/laws/orthotropic_law.h"
 
 namespace bullet_fem
@@ -13,7 +14,7 @@ namespace bullet_fem
 
 const std::vector<Law>& allLaws()
 {
-    static const std::vector<Law> laws = {hookeLaw(), neoHookeLaw(), orthotropicLaw()};
+    static const std::vector<Law> laws = {hookeLaw(), neoHookeLaw(), orthotropicLaw(), ogdenLaw()};
     return laws;
 }
 
