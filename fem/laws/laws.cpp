@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fem/common/message.h"
+#include "fem/laws/damage.h"
 #include "fem/laws/hooke.h"
 #include "fem/laws/law.h"
 #include "fem/laws/neo_hooke.h"
@@ -14,7 +15,7 @@ namespace bullet_fem
 
 const std::vector<Law>& allLaws()
 {
-    static const std::vector<Law> laws = {hookeLaw(), neoHookeLaw(), orthotropicLaw(), ogdenLaw()};
+    static const std::vector<Law> laws = {hookeLaw(), neoHookeLaw(), orthotropicLaw(), ogdenLaw(), damageLaw()};
     return laws;
 }
 
