@@ -30,6 +30,7 @@ struct SmoothedScratch
     std::vector<TensionBlock<Real>> m_tension;
     std::vector<StrainQuads<Real>> m_strain[2];  ///< elastic and damped of the pass; products use the first
     std::vector<DomainStrain<Real>> m_mean[2];   ///< means over the edge domains of m_strain
+    std::vector<StrainBlock<Real>> m_inelastic;  ///< plastic and relaxed strain; empty without
 };
 
 /// Output arrays of one body's element kernels in a step, in one precision.

@@ -34,6 +34,12 @@ HWY_INLINE Symmetric<Real> withoutDoubling(const Symmetric<Real>& E)
     return {E.xx, E.yy, E.zz, half * E.yz, half * E.xz, half * E.xy};
 }
 
+template <class Real>
+HWY_INLINE Symmetric<Real> withDoubling(const Symmetric<Real>& E)
+{
+    return {E.xx, E.yy, E.zz, E.yz + E.yz, E.xz + E.xz, E.xy + E.xy};
+}
+
 /// Stress 2 mu E + pressure I of a strain with doubled shears; mu includes the volume.
 template <class Real>
 HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& E)

@@ -9,17 +9,6 @@
 
 namespace bullet_fem
 {
-namespace
-{
-
-Mat3 adjugateOf(const Mat3& A)
-{
-    const Vec3 a = A.column(0), b = A.column(1), c = A.column(2);
-    return transpose(Mat3::fromColumns(cross(b, c), cross(c, a), cross(a, b)));
-}
-
-}  // namespace
-
 LawResponse neoHooke(const Mat3& e, double lambda, double mu, double pressure)
 {
     const Mat3 adjugate = adjugateOf(e);

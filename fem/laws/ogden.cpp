@@ -41,12 +41,6 @@ struct StretchFunction
     double m_value = 0, m_slope = 0, m_curvature = 0;
 };
 
-Mat3 adjugateOf(const Mat3& A)
-{
-    const Vec3 a = A.column(0), b = A.column(1), c = A.column(2);
-    return transpose(Mat3::fromColumns(cross(b, c), cross(c, a), cross(a, b)));
-}
-
 LawResponse respond(const Mat3& e, const LawPoint& point)
 {
     const double* constants = point.m_constants;

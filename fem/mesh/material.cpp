@@ -107,12 +107,10 @@ bool validBending(const Material& material, std::string* why)
 {
     if (!material.m_accurateBending) return true;
     const Law& law = lawOf(material.m_law);
-    const std::string without =
-        material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
-        : law.m_kind != LawKind::linear                  ? message("the ", law.m_title, "; take the law hooke")
-        : material.yields()                              ? "a yield stress; take infinity, or another material"
-        : material.relaxationTerms() > 0                 ? "relaxation; take terms without a share, or another material"
-                                                         : "";
+    const std::string without = material.m_meanDilatation == MeanDilatation::off
+                                    ? "mean dilatation off; take automatic or on"
+                                : law.m_kind != LawKind::linear ? message("the ", law.m_title, "; take the law hooke")
+                                                                : "";
     if (!without.empty() && why) *why = message("accurate bending does not go with ", without);
     return without.empty();
 }

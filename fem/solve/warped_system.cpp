@@ -100,8 +100,14 @@ void runSmoothedPass(Body& body, const ElementPass<Real>& pass, const Threads* t
     SmoothedScratch<Real>& scratch = body.m_workspace.scratch().m_elements.scratch<Real>().m_smoothed;
     scratch.grow(pass.m_elements->blockCount(), smoothing.domainCount());
     const SmoothedStrain<Real> strain[2] = {scratch.strain(0), scratch.strain(1)};
-    runSmoothed(SmoothedPass<Real>{pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()}, *pass.m_elements,
-                strain, 2, threads);
+    SmoothedPass<Real> parts = {pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()};
+    if (smoothsElasticStrain(body))
+    {
+        scratch.m_inelastic.resize(pass.m_elements->blockCount());
+        gatherInelasticStrain(body, threads, scratch.m_inelastic.data());
+        parts.m_inelastic = scratch.m_inelastic.data();
+    }
+    runSmoothed(parts, *pass.m_elements, strain, 2, threads);
 }
 
 template <class Real>

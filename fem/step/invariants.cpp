@@ -83,8 +83,10 @@ double mechanicalEnergy(const Body& body)
         }
         const bool isSmoothed = !shape.m_edgeDomains.empty();
         const double share = isSmoothed ? 1 - shape.m_edgeDomains.m_share[e] : 1;
-        if (isSmoothed) strain.push_back(symmetricPart(E));
-        energy += share * element.m_volume * law.m_respond(symmetric, point).m_energy;
+        Mat3 elastic = symmetric;  // of the smoothed part
+        if (smoothsElasticStrain(body)) elastic = elastic - toMatrix(inelasticStrain(body, index));
+        if (isSmoothed) strain.push_back(symmetricPart(elastic));
+        energy += share * element.m_volume * law.m_respond(elastic, point).m_energy;
         if (hasInitialStress(body))
             energy += element.m_volume * contraction(initialStress(body, static_cast<int>(e)), symmetricPart(E)) +
                       inelasticEnergy(body, static_cast<int>(e));

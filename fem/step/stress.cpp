@@ -61,12 +61,20 @@ SymmetricTensor strainOf(const LeftStretch& found)
     return strain;
 }
 
-// Strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or empty to
-// compute them on demand.
+// Strain of an element without plastic and relaxed strain.
+SymmetricTensor elasticStrain(const Body& body, int e)
+{
+    SymmetricTensor strain = strainOf(leftStretch(body, e));
+    if (smoothsElasticStrain(body)) strain += -1.0 * inelasticStrain(body, e);
+    return strain;
+}
+
+// Elastic strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or
+// empty to compute them on demand.
 SymmetricTensor smoothedStrain(const Body& body, int e, const std::vector<SymmetricTensor>& strains)
 {
     const EdgeDomains& domains = body.m_model->shape().m_edgeDomains;
-    const auto own = [&](int other) { return strains.empty() ? strainOf(leftStretch(body, other)) : strains[other]; };
+    const auto own = [&](int other) { return strains.empty() ? elasticStrain(body, other) : strains[other]; };
     const double share = domains.m_share[e];
     SymmetricTensor sum = (1 - share) * own(e);
     if (share == 0) return sum;
@@ -150,7 +158,7 @@ void elementStresses(const Body& body, std::vector<Stress>& perElement)
     const ElementPatches& patches = model.shape().m_patches;
     std::vector<SymmetricTensor> strains;
     if (!model.shape().m_edgeDomains.empty())
-        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(strainOf(leftStretch(body, e)));
+        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(elasticStrain(body, e));
     for (int p = 0; p < patches.count(); ++p)
         visitPatch(body, p,
                    [&](int e, const LeftStretch& left, double dilatation)

@@ -70,12 +70,11 @@ struct BULLETFEM_API btFemMaterial
     /// exp(-t / tau_i))) at time t after loading; the bulk modulus does not relax. Terms with a share stand first; the
     /// sum of the shares is at most 0.99.
     btFemRelaxation m_relaxation[kMaxRelaxationTerms];
-    /// Constitutive law; E and nu are its small-strain constants. A Neo-Hookean material cannot yield or relax, and its
-    /// elements each have their own volume change.
+    /// Constitutive law; E and nu are its small-strain constants. Only hooke can yield or relax.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
     /// Accurate bending: averages shear strains around edges, as volume changes over patches, against locking in
     /// bending. Bars of two or more cells across have a bending error of at most 6 %; a step takes two to three times
-    /// as long. Not available with mean dilatation off, nor for materials that yield or relax (docs/materials.md).
+    /// as long. Not available with mean dilatation off, and for the law hooke alone (docs/materials.md).
     bool m_accurateBending = false;
     /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
     /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,

@@ -72,7 +72,7 @@ struct BULLETFEM_API Material
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
     /// Averages shear strains around edges, so that bending does not lock (EdgeDomains). Not available with mean
-    /// dilatation off, nor for materials that yield or relax.
+    /// dilatation off, and for the law hooke alone.
     bool m_accurateBending = false;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;
