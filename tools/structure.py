@@ -29,11 +29,11 @@ def ladder(top, rooms):
 
 
 # Folders bottom-up. A folder may include those before it on its line, and those named after the colon.
-FLOORS = ladder("fem", ["common", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact", "contact/compliance",
-                       "contact/constraints", "contact/solver"]) + [
-    ("fem/fracture", ["fem/step", "fem/batch", "fem/solve", "fem/body", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
-    ("fem/cage", ["fem/mesh", "fem/common"]),
-    ("fem/baked", ["fem/cage", "fem/factor", "fem/elements", "fem/mesh", "fem/common"]),
+FLOORS = ladder("fem", ["common", "laws", "mesh", "elements", "factor", "body", "solve", "batch", "step", "contact",
+                       "contact/compliance", "contact/constraints", "contact/solver"]) + [
+    ("fem/fracture", ["fem/step", "fem/batch", "fem/solve", "fem/body", "fem/factor", "fem/elements", "fem/mesh", "fem/laws", "fem/common"]),
+    ("fem/cage", ["fem/mesh", "fem/laws", "fem/common"]),
+    ("fem/baked", ["fem/cage", "fem/factor", "fem/elements", "fem/mesh", "fem/laws", "fem/common"]),
 ] + ladder("bullet_bridge", ["geometry", "geometry/surface", "geometry/shapes", "body", "rigid", "joints", "contact",
                              "contact/soft", "contact/rigid", "contact/cloth", "snapshot"]
 ) + ladder("plugin", ["public", "record", "registry", "setup", "joints", "dispatch", "helpers", "stages", "snapshot",

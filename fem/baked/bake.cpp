@@ -33,6 +33,7 @@ struct Rounding
                               &m.m_yieldStress, &m.m_hardeningModulus, &m.m_plasticCreep, &m.m_mostPlasticStrain})
             *value = (*this)(*value);
         for (PronyTerm& term : m.m_relaxation) term = {(*this)(term.m_share), (*this)(term.m_time)};
+        for (double& constant : m.m_lawConstants) constant = (*this)(constant);
         Orthotropic& orthotropic = m.m_orthotropic;
         for (auto* constants : {&orthotropic.m_young, &orthotropic.m_poisson, &orthotropic.m_shear})
             for (double& value : *constants) value = (*this)(value);

@@ -13,6 +13,7 @@
 
 #include "fem/common/bounds.h"
 #include "fem/common/message.h"
+#include "fem/laws/law.h"
 
 namespace bullet_fem
 {
@@ -55,6 +56,12 @@ Material materialOf(const Numbers& h)
     material.m_meanDilatation = static_cast<MeanDilatation>(h.m_meanDilatation & ~kBakedFlags);
     if (h.m_meanDilatation & kBakedNeoHooke) material.m_law = ElasticLaw::neoHooke;
     if (h.m_meanDilatation & kBakedOrthotropic) material.m_law = ElasticLaw::orthotropic;
+    if (h.m_meanDilatation & kBakedLawBits)
+    {
+        const std::uint32_t law = (h.m_meanDilatation & kBakedLawBits) >> kBakedLawShift;
+        if (law >= allLaws().size()) reject("its law is ", law, ", not below ", allLaws().size(), kDamaged);
+        material.m_law = static_cast<ElasticLaw>(law);
+    }
     material.m_accurateBending = (h.m_meanDilatation & kBakedAccurateBending) != 0;
     return yielding(material, h.m_plasticity);
 }
@@ -76,10 +83,10 @@ void checkVersion(const BakedHeader& header)
     if (header.m_byteOrder != kByteOrder) reject("its byte order mark is damaged", kDamaged);
     if (header.m_version < kBakedVersion)
         reject("its format has the older version ", header.m_version, ", and this program reads versions ",
-               kBakedVersion, " to ", kBakedOrthotropicVersion, " alone; bake it anew");
-    if (header.m_version > kBakedOrthotropicVersion)
+               kBakedVersion, " to ", kBakedConstantsVersion, " alone; bake it anew");
+    if (header.m_version > kBakedConstantsVersion)
         reject("its format has the newer version ", header.m_version, ", and this program reads versions ",
-               kBakedVersion, " to ", kBakedOrthotropicVersion,
+               kBakedVersion, " to ", kBakedConstantsVersion,
                " alone; build the program with a newer BulletFEM, or bake it with this one");
     if (header.m_headerChecksum != headerChecksum(header)) reject("its header is damaged", kDamaged);
 }
@@ -99,7 +106,7 @@ void checkCounts(const BakedHeader& h)
         reject("its factor has ", h.m_panelFloats, " floats of ", h.m_fullBytes, " bytes and ", h.m_entries, " entries",
                kDamaged);
     const bool asVersion =
-        h.m_version == kBakedOrthotropicVersion || (h.m_regions > 0) == (h.m_version == kBakedRegionsVersion);
+        h.m_version == kBakedConstantsVersion || (h.m_regions > 0) == (h.m_version == kBakedRegionsVersion);
     if (h.m_regions > h.m_tets || !asVersion)
         reject("it has ", h.m_regions, " regions of ", h.m_tets, " elements in version ", h.m_version, kDamaged);
     if (h.m_surfaceCollides > (h.m_triangles > 0 ? 1 : 0))
@@ -112,9 +119,11 @@ void checkValues(const BakedHeader& h)
 {
     if ((h.m_meanDilatation & ~kBakedFlags) > static_cast<std::uint32_t>(MeanDilatation::off))
         reject("its mean dilatation is ", h.m_meanDilatation, ", not in [0, 2]", kDamaged);
-    if ((h.m_meanDilatation & kBakedOrthotropic) && h.m_version != kBakedOrthotropicVersion)
-        reject("its material is orthotropic in version ", h.m_version, kDamaged);
-    materialOf(h).validate();
+    Material material = materialOf(h);
+    if (hasBakedConstants(material) && h.m_version != kBakedConstantsVersion)
+        reject("its material is ", nameOf(material.m_law), " in version ", h.m_version, kDamaged);
+    if (hasBakedConstants(material)) material.m_law = ElasticLaw::hooke;  // the law is checked with its constants
+    material.validate();
     if (!isUsableStep(h.m_step)) reject("its step is ", h.m_step, " s, not in [1e-6, 1]", kDamaged);
     if (!(h.m_massScale > 0) || !std::isfinite(h.m_massScale))
         reject("its mass scale is ", h.m_massScale, ", not in (0, inf)", kDamaged);
@@ -142,7 +151,7 @@ void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t body
 {
     header.m_magic = kMagic;
     header.m_byteOrder = kByteOrder;
-    if (header.m_version != kBakedOrthotropicVersion)
+    if (header.m_version != kBakedConstantsVersion)
         header.m_version = header.m_regions > 0 ? kBakedRegionsVersion : kBakedVersion;
     header.m_fileBytes = sizeof header + bodyBytes;
     header.m_bodyChecksum = checksumOf(body, bodyBytes);
@@ -169,8 +178,8 @@ ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& array
 {
     const auto with = [&arrays](Material material, std::size_t region)
     {
-        if (!material.isOrthotropic()) return material;
-        if (region >= arrays.m_constants.size()) reject("region ", region, " has no orthotropic constants");
+        if (!hasBakedConstants(material)) return material;
+        if (region >= arrays.m_constants.size()) reject("region ", region, " has no constants of its law");
         return withConstants(material, arrays.m_constants[region]);
     };
     if (header.m_regions == 0) return with(materialOf(header), 0);
@@ -181,8 +190,14 @@ ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& array
 
 Material withConstants(Material material, const BakedConstants& constants)
 {
-    material.m_orthotropic = {constants.m_young, constants.m_poisson, constants.m_shear, constants.m_along,
-                              constants.m_across};
+    if (material.isOrthotropic())
+        material.m_orthotropic = {constants.m_young, constants.m_poisson, constants.m_shear, constants.m_along,
+                                  constants.m_across};
+    else
+    {
+        std::copy(constants.m_young.begin(), constants.m_young.end(), material.m_lawConstants.begin());
+        std::copy(constants.m_poisson.begin(), constants.m_poisson.end(), material.m_lawConstants.begin() + 3);
+    }
     material.validate();
     return material;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/baked/baked_body.h"
+#include "bullet_fem/fem/laws/law_table.h"
 
 namespace bullet_fem
 {
@@ -17,8 +18,8 @@ constexpr std::uint32_t kBakedVersion = 2;
 
 /// Version for bodies with several regions, so that older readers refuse them.
 constexpr std::uint32_t kBakedRegionsVersion = 3;
-/// Version for bodies with an orthotropic region.
-constexpr std::uint32_t kBakedOrthotropicVersion = 4;
+/// Version for bodies with a region whose law has constants of its own.
+constexpr std::uint32_t kBakedConstantsVersion = 4;
 
 /// Alignment of sections and panels in a file [B].
 constexpr std::size_t kBakedAlignment = 64;
@@ -56,7 +57,9 @@ static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignmen
 constexpr std::uint32_t kBakedAccurateBending = 8;
 /// Flag in m_meanDilatation of an orthotropic material.
 constexpr std::uint32_t kBakedOrthotropic = 16;
-constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending | kBakedOrthotropic;
+/// Bits of m_meanDilatation with the number of a law beyond orthotropic.
+constexpr std::uint32_t kBakedLawBits = 0xff00, kBakedLawShift = 8;
+constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending | kBakedOrthotropic | kBakedLawBits;
 
 /// Mean dilatation, accurate bending and law of a material in one number.
 inline std::uint32_t averagingOf(const Material& material)
@@ -64,7 +67,15 @@ inline std::uint32_t averagingOf(const Material& material)
     return static_cast<std::uint32_t>(material.m_meanDilatation) |
            (material.m_accurateBending ? kBakedAccurateBending : 0) |
            (material.m_law == ElasticLaw::neoHooke ? kBakedNeoHooke : 0) |
-           (material.isOrthotropic() ? kBakedOrthotropic : 0);
+           (material.isOrthotropic() ? kBakedOrthotropic : 0) |
+           (material.m_law > ElasticLaw::orthotropic ? static_cast<std::uint32_t>(material.m_law) << kBakedLawShift
+                                                     : 0);
+}
+
+/// True if the file has BakedConstants of the material.
+inline bool hasBakedConstants(const Material& material)
+{
+    return material.isOrthotropic() || !constantsOf(material.m_law).empty();
 }
 
 /// A supernode in the file; columns and rows are stored consecutively.
@@ -83,7 +94,8 @@ struct BakedRegion
 };
 static_assert(sizeof(BakedRegion) == 64);
 
-/// Constants and directions of a region in the file, as in Orthotropic; 0 for other laws.
+/// Constants and directions of a region in the file, as in Orthotropic; of other laws, Material::m_lawConstants in
+/// m_young and m_poisson.
 struct BakedConstants
 {
     std::array<double, 3> m_young, m_poisson, m_shear;
@@ -105,7 +117,7 @@ struct BakedArrays
     std::vector<unsigned char> m_sides, m_fixed;
     std::vector<BakedRegion> m_regions;  // m_regions, m_regionOf: empty for a body of one material
     std::vector<std::int32_t> m_regionOf;
-    std::vector<BakedConstants> m_constants;  // one per region; empty if no region is orthotropic
+    std::vector<BakedConstants> m_constants;  // one per region; empty if no law has constants
 };
 
 /// Calls section(array, length) for each array, in the order of the file.
@@ -131,7 +143,7 @@ void forEachSection(Arrays& a, const BakedHeader& h, const Section& section)
     section(a.m_fixed, h.m_nodes);
     section(a.m_regions, h.m_regions);
     section(a.m_regionOf, h.m_regions > 0 ? h.m_tets : 0);
-    section(a.m_constants, h.m_version != kBakedOrthotropicVersion ? 0 : h.m_regions > 0 ? h.m_regions : 1);
+    section(a.m_constants, h.m_version != kBakedConstantsVersion ? 0 : h.m_regions > 0 ? h.m_regions : 1);
 }
 
 /// Offset of the next section after so many bytes.
@@ -147,7 +159,7 @@ std::uint64_t bakedFileBytes(const BakedHeader& header);
 std::uint64_t checksumOf(const void* data, std::size_t size);
 
 /// Completes a header whose counts and values are set: magic, byte order, version (unless it is
-/// kBakedOrthotropicVersion), file size and checksums; `body` is all that follows it.
+/// kBakedConstantsVersion), file size and checksums; `body` is all that follows it.
 void sealHeader(BakedHeader& header, const unsigned char* body, std::size_t bodyBytes);
 
 /// Reads the header of a file of `fileBytes`, whose first `size` bytes are given. Throws std::invalid_argument with
@@ -160,7 +172,7 @@ ElementMaterials materialsOf(const BakedHeader& header, const BakedArrays& array
 /// The information of a header, without the constants of orthotropic materials.
 BakedFileInfo infoOf(const BakedHeader& header);
 
-/// Offset of the first region's constants in a file of version kBakedOrthotropicVersion, whose last section has the
+/// Offset of the first region's constants in a file of version kBakedConstantsVersion, whose last section has the
 /// constants of all regions.
 std::uint64_t constantsOffset(const BakedHeader& header);
 /// The material with these constants. Throws std::invalid_argument if it is invalid.

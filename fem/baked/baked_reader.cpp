@@ -155,11 +155,11 @@ BakedFileInfo inspectBakedBody(const std::string& path, std::string* why)
         file.read(reinterpret_cast<char*>(begin), sizeof begin);
         const BakedHeader header = openHeader(begin, static_cast<std::size_t>(file.gcount()), length);
         BakedFileInfo info = infoOf(header);
-        if (!info.m_material.isOrthotropic()) return info;
+        if (!hasBakedConstants(info.m_material)) return info;
         BakedConstants constants;
         file.seekg(static_cast<std::streamoff>(constantsOffset(header)));
         file.read(reinterpret_cast<char*>(&constants), sizeof constants);
-        if (!file) reject("its orthotropic constants cannot be read; copy or bake it anew");
+        if (!file) reject("the constants of its law cannot be read; copy or bake it anew");
         info.m_material = withConstants(info.m_material, constants);
         return info;
     };

@@ -39,7 +39,11 @@ BakedPlasticity plasticityOf(const Material& material)
 
 BakedConstants constantsOf(const Material& material)
 {
-    if (!material.isOrthotropic()) return {};
+    if (!material.isOrthotropic())
+    {
+        const std::array<double, kMaxLawConstants>& c = material.m_lawConstants;
+        return {{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {}, {}, {}};
+    }
     const Orthotropic& m = material.m_orthotropic;
     return {m.m_young, m.m_poisson, m.m_shear, m.m_along, m.m_across};
 }
@@ -63,7 +67,7 @@ BakedHeader headerOf(const BakedBody& body, const BakedArrays& arrays)
     h.m_rows = countOf(arrays.m_row.size());
     h.m_restBlocks = countOf(arrays.m_restColumn.size());
     h.m_regions = countOf(arrays.m_regions.size());
-    if (!arrays.m_constants.empty()) h.m_version = kBakedOrthotropicVersion;
+    if (!arrays.m_constants.empty()) h.m_version = kBakedConstantsVersion;
     h.m_lowMemory = h.m_restBlocks > 0;
     h.m_surfaceCollides = body.m_surfaceCollides;
     h.m_singlePrecision = body.m_singlePrecision;
@@ -114,7 +118,8 @@ BakedArrays arraysOf(const BakedBody& body)
         a.m_restValues = factor.rest().m_values;
     }
     const ElementMaterials& materials = model.shape().m_materials;
-    if (materials.isOrthotropic())
+    if (std::any_of(materials.m_regions.begin(), materials.m_regions.end(),
+                    [](const MaterialRegion& region) { return hasBakedConstants(region.m_material); }))
         for (const auto& [label, m] : materials.m_regions) a.m_constants.push_back(constantsOf(m));
     if (materials.isUniform()) return a;
     a.m_regionOf = materials.m_regionOf;

@@ -88,6 +88,15 @@ void checkRelaxedStrain(const BodySnapshot& s, const BodyModel& model)
             reject("the relaxed strain of element ", k / terms, " is beyond 1e6");
 }
 
+void checkLawHistory(const BodySnapshot& s, const BodyModel& model)
+{
+    const std::size_t count = static_cast<std::size_t>(model.shape().m_materials.historyCount());
+    checkSize(s.m_lawHistory, count * model.mesh().tets().size(), "history variables");
+    for (std::size_t k = 0; k < s.m_lawHistory.size(); ++k)
+        if (!std::isfinite(s.m_lawHistory[k]))
+            reject("a history variable of element ", k / count, " is ", s.m_lawHistory[k], ", not finite");
+}
+
 }  // namespace
 
 namespace
@@ -108,6 +117,8 @@ void addMaterial(std::uint64_t& mark, const Material& material)
         addToMark(mark, value);
     if (material.m_law != ElasticLaw::hooke) addToMark(mark, static_cast<int>(material.m_law));
     if (material.isOrthotropic()) addOrthotropic(mark, material.m_orthotropic);
+    for (const double constant : material.m_lawConstants)
+        if (constant != 0) addToMark(mark, constant);
     if (material.yields())
         for (double value : {material.m_yieldStress, material.m_hardeningModulus, material.m_plasticCreep,
                              material.m_mostPlasticStrain})
@@ -170,6 +181,7 @@ BodySnapshot snapshotOf(const Body& body)
     s.m_plasticStrain = state.m_plasticStrain;
     s.m_equivalentPlasticStrain = state.m_equivalentPlasticStrain;
     s.m_relaxedStrain = state.m_relaxedStrain;
+    s.m_lawHistory = state.m_lawHistory;
     s.m_actuators = body.m_actuators;
     s.m_leastStep = state.m_leastStep;
     s.m_mostStep = state.m_mostStep;
@@ -200,6 +212,7 @@ void check(const BodySnapshot& s, const BodyModel& model)
     checkRotations(s);
     checkPlasticStrain(s, model);
     checkRelaxedStrain(s, model);
+    checkLawHistory(s, model);
     std::string why;
     if (!isInitialStress(model, s.m_initialStress, &why)) reject(why);
     if (!isInitialStress(model, s.m_actuators.m_ownStress, &why)) reject(why);
@@ -233,6 +246,7 @@ void restore(const BodySnapshot& s, Body& body)
     state.m_plasticStrain = s.m_plasticStrain;
     state.m_equivalentPlasticStrain = s.m_equivalentPlasticStrain;
     state.m_relaxedStrain = s.m_relaxedStrain;
+    state.m_lawHistory = s.m_lawHistory;
     body.m_actuators = s.m_actuators;
     state.m_leastStep = s.m_leastStep;
     state.m_mostStep = s.m_mostStep;

@@ -18,6 +18,8 @@ void BodyState::resizeHistoryVariables(const BodyModel& model)
     }
     const std::size_t relaxed = elements * static_cast<std::size_t>(materials.relaxationTerms());
     if (m_relaxedStrain.size() != relaxed) m_relaxedStrain.assign(relaxed, SymmetricTensor());
+    const std::size_t history = elements * static_cast<std::size_t>(materials.historyCount());
+    if (m_lawHistory.size() != history) m_lawHistory.assign(history, 0.0);
 }
 
 BodyState::BodyState(const BodyModel& model)

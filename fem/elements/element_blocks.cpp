@@ -3,6 +3,7 @@
 #include "fem/elements/element_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace bullet_fem
@@ -58,6 +59,36 @@ void storeStiffness(const ElasticMatrix& C, const RestElement& element, int lane
             block.m_entry[entry++][lane] = static_cast<Real>(element.m_volume * C(i, j) - isotropic(i, j));
 }
 
+LaneLaw laneLawOf(const Law& law)
+{
+    if (law.m_kind != LawKind::varying) return LaneLaw::linear;
+    if (law.m_isInLanes) return LaneLaw::neoHooke;
+    return law.m_hasVolumeRatio ? LaneLaw::single : LaneLaw::singleAllAtOnce;
+}
+
+bool needsSingle(const RestShape& shape)
+{
+    const auto isSingle = [](const MaterialRegion& region)
+    { return laneLawOf(lawOf(region.m_material.m_law)) >= LaneLaw::single; };
+    const std::vector<MaterialRegion>& regions = shape.m_materials.m_regions;
+    return std::any_of(regions.begin(), regions.end(), isSingle);
+}
+
+SingleLane singleLane(const RestShape& shape, int e)
+{
+    const Material& material = shape.materialOf(e);
+    const Law& law = lawOf(material.m_law);
+    SingleLane lane;
+    if (laneLawOf(law) < LaneLaw::single) return lane;
+    lane.m_law = &law;
+    lane.m_volume = shape.m_elements[e].m_volume;
+    lane.m_mu = material.lameMu();
+    lane.m_size = std::cbrt(shape.m_mesh.tetVolume(e));
+    lane.m_history = static_cast<std::size_t>(e) * shape.m_materials.historyCount();
+    lane.m_constants = material.m_lawConstants;
+    return lane;
+}
+
 }  // namespace
 
 ElementLanes::ElementLanes(const RestShape& shape)
@@ -73,6 +104,7 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
     : m_blocks(lanes.blockCount()),
       m_groups(lanes.m_groups),
       m_law(shape.m_materials.isNonlinear() ? lanes.blockCount() : 0),
+      m_single(needsSingle(shape) ? lanes.m_element.size() : 0),
       m_share(hasPatches() ? lanes.blockCount() : 0),
       m_stiffness(shape.isOrthotropic() ? lanes.blockCount() : 0)
 {
@@ -94,7 +126,8 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
         block.m_muVolume[lane] = static_cast<Real>(stiffness * element.m_muVolume);
         for (int a = 0; a < 4; ++a) block.m_node[lane][a] = tet[a];
         if (!m_law.empty())
-            m_law[k / kLanes].m_lane[lane] = shape.materialOf(e).m_law == ElasticLaw::neoHooke ? Real(1) : Real(0);
+            m_law[k / kLanes].m_lane[lane] = static_cast<Real>(laneLawOf(lawOf(shape.materialOf(e).m_law)));
+        if (!m_single.empty() && !lanes.isCopy(k)) m_single[k] = singleLane(shape, e);
         if (shape.isOrthotropic() && !lanes.isCopy(k))
             storeStiffness(shape.stiffnessOf(e), element, lane, m_stiffness[k / kLanes]);
         if (hasPatches()) m_share[k / kLanes].m_lane[lane] = static_cast<Real>(stiffness * shape.shareOfPatch(e));

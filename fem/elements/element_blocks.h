@@ -9,11 +9,11 @@
 #include "bullet_fem/fem/common/quaternion.h"
 #include "bullet_fem/fem/mesh/rest_shape.h"
 #include "fem/common/chunks.h"
+#include "fem/common/lane_count.h"
+#include "fem/laws/law.h"
 
 namespace bullet_fem
 {
-
-constexpr int kLanes = 16;  ///< elements in a block: one AVX-512 vector of floats, two of AVX2, four of SSE or NEON
 
 /// Up to kLanes patches side by side: lane k of each block holds elements of patch k only, so that sums over patches
 /// are sums of vectors.
@@ -69,11 +69,31 @@ struct alignas(64) PatchShares
     Real m_lane[kLanes];
 };
 
-/// Laws of a block's elements: 1 Neo-Hookean, 0 Hooke.
+/// How the kernels evaluate the law of a lane's element.
+enum class LaneLaw
+{
+    linear,          ///< Hooke's law
+    neoHooke,        ///< in lanes
+    single,          ///< by SingleResponses; lambda multiplies a function of the volume ratio
+    singleAllAtOnce  ///< by SingleResponses, lambda included
+};
+
+/// LaneLaw of a block's elements, as numbers.
 template <class Real>
 struct alignas(64) LawLanes
 {
     Real m_lane[kLanes];
+};
+
+/// A lane whose law is evaluated one element at a time (SingleResponses).
+struct SingleLane
+{
+    const Law* m_law = nullptr;  ///< null: the lane has another law, or is a copy
+    double m_volume = 1;         ///< [m3]
+    double m_mu = 0;             ///< [Pa]
+    double m_size = 0;           ///< cube root of the volume [m]
+    std::size_t m_history = 0;   ///< index of the element's first history variable
+    std::array<double, kMaxLawConstants> m_constants = {};
 };
 
 constexpr int kStiffnessEntries = 21;  ///< number of independent entries of a symmetric C
@@ -101,7 +121,8 @@ struct ElementBlocks
 
     std::vector<ElementBlock<Real>> m_blocks;
     std::vector<PatchGroup> m_groups;   ///< empty without patches
-    std::vector<LawLanes<Real>> m_law;  ///< one per block; empty if all elements have Hooke's law
+    std::vector<LawLanes<Real>> m_law;  ///< one per block; empty if no law varies (LawKind::varying)
+    std::vector<SingleLane> m_single;   ///< one per lane; empty if no law is evaluated one element at a time
     /// One a block: share of each element in its patch's volume [-]; empty without patches.
     std::vector<PatchShares<Real>> m_share;
     /// One a block; empty if no element is orthotropic, else of all elements.

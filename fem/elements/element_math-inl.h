@@ -11,41 +11,13 @@
 #endif
 
 #include "fem/elements/deformed_edges-inl.h"
+#include "fem/laws/hooke-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
 {
 namespace HWY_NAMESPACE
 {
-
-/// a A + b B.
-template <class Real>
-HWY_INLINE Symmetric<Real> combined(Vector<Real> a, const Symmetric<Real>& A, Vector<Real> b, const Symmetric<Real>& B)
-{
-    return {hn::MulAdd(a, A.xx, b * B.xx), hn::MulAdd(a, A.yy, b * B.yy), hn::MulAdd(a, A.zz, b * B.zz),
-            hn::MulAdd(a, A.yz, b * B.yz), hn::MulAdd(a, A.xz, b * B.xz), hn::MulAdd(a, A.xy, b * B.xy)};
-}
-
-/// A + s I.
-template <class Real>
-HWY_INLINE Symmetric<Real> shifted(const Symmetric<Real>& A, Vector<Real> s)
-{
-    return {A.xx + s, A.yy + s, A.zz + s, A.yz, A.xz, A.xy};
-}
-
-template <class Real>
-HWY_INLINE Vector<Real> trace(const Symmetric<Real>& A)
-{
-    return A.xx + A.yy + A.zz;
-}
-
-template <class Real>
-HWY_INLINE Symmetric<Real> adjugate(const Symmetric<Real>& A)
-{
-    return {hn::MulSub(A.yy, A.zz, A.yz * A.yz), hn::MulSub(A.xx, A.zz, A.xz * A.xz),
-            hn::MulSub(A.xx, A.yy, A.xy * A.xy), hn::MulSub(A.xz, A.xy, A.xx * A.yz),
-            hn::MulSub(A.xy, A.yz, A.yy * A.xz), hn::MulSub(A.yz, A.xz, A.zz * A.xy)};
-}
 
 /// Lower bound of divisors that are of order one or less, as for a matrix with entries of at most 1.
 template <class Real>
@@ -66,12 +38,6 @@ struct FarEigenvalue
 
     Vector<Real> m_size, m_inverse, m_value;
 };
-
-template <class Real>
-HWY_INLINE Symmetric<Real> times(const Symmetric<Real>& S, Vector<Real> s)
-{
-    return {S.xx * s, S.yy * s, S.zz * s, S.yz * s, S.xz * s, S.xy * s};
-}
 
 /// The extreme eigenvalue (largest or smallest) farther from the middle one. With p^2 = |A|^2 / 6 and r = det A / (2
 /// p^3), it is 2 p c sign(r) where 4 c^3 - 3 c = |r|, c in [cos 30, 1] (that is c = cos(acos(|r|) / 3)); no other
@@ -162,33 +128,6 @@ HWY_INLINE Symmetric<Real> strainInFrameOf(const Matrix<Real>& R, const Matrix<R
                              { return dot3(R.m[0][i], A.m[0][j], R.m[1][i], A.m[1][j], R.m[2][i], A.m[2][j]); });
 }
 
-template <class Real>
-HWY_INLINE Symmetric<Real> withoutDoubling(const Symmetric<Real>& E)
-{
-    const Vector<Real> half = number<Real>(0.5);
-    return {E.xx, E.yy, E.zz, half * E.yz, half * E.xz, half * E.xy};
-}
-
-/// Stress 2 mu E + pressure I of a strain with doubled shears; mu includes the volume.
-template <class Real>
-HWY_INLINE Symmetric<Real> hookeUnder(Vector<Real> pressure, Vector<Real> mu, const Symmetric<Real>& E)
-{
-    const Vector<Real> twoMu = mu + mu;
-    return {hn::MulAdd(twoMu, E.xx, pressure),
-            hn::MulAdd(twoMu, E.yy, pressure),
-            hn::MulAdd(twoMu, E.zz, pressure),
-            mu * E.yz,
-            mu * E.xz,
-            mu * E.xy};
-}
-
-/// Stress 2 mu E + lambda tr(E) I of a strain with doubled shears; the Lame constants include the volume.
-template <class Real>
-HWY_INLINE Symmetric<Real> hooke(Vector<Real> lambda, Vector<Real> mu, const Symmetric<Real>& E)
-{
-    return hookeUnder<Real>(lambda * trace(E), mu, E);
-}
-
 /// ElementPass for rotated elements, without the tension, which is the positive part of the returned stress. Strains
 /// and stresses are in the world frame, R E R^T = sym(F R^T) - I: with F R^T = D_s g'^T, g' = R D_m^-T, forces and
 /// tension need R through g' only. Elements provides edges(part), restEdges(part), velocityEdges(), DmInverse(),
@@ -257,6 +196,13 @@ struct PatchStrains
         const Symmetric<Real> minusStress = hookeUnder<Real>(hn::Neg(damped), hn::Neg(mu), m_damped[k]);
         elements.storeForces(timesTranspose(full(minusStress), elements.loadGradients()));
         return hookeUnder<Real>(pressureInPatch<Real>(lambda, mu, trace(m_strain[k]), m_dilatation), mu, m_strain[k]);
+    }
+
+    /// Stores the tension of an element.
+    template <class Elements>
+    HWY_INLINE void storeTension(const Elements& elements, const Symmetric<Real>& tension) const
+    {
+        elements.storeTension(tension);
     }
 
     Symmetric<Real> m_strain[ElementPatches::kMax], m_damped[ElementPatches::kMax];

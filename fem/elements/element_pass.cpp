@@ -14,7 +14,7 @@
 
 #include "fem/elements/element_math-inl.h"
 #include "fem/elements/initial_stress-inl.h"
-#include "fem/elements/neo_hooke-inl.h"
+#include "fem/elements/response_elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -96,9 +96,35 @@ struct PassLanes
     {
         storeSymmetric(T, m_pass.m_warped[m_block].m_tension, m_lane);
     }
-    HWY_INLINE void storeCofactor(const Symmetric<Real>& C) const
+    HWY_INLINE void storeTangentBlock(const Symmetric<Real>& C, Vector<Real> bulk, Vector<Real> patchBulk) const
     {
-        storeSymmetric(C, m_pass.m_cofactor[m_block].m_entry, m_lane);
+        const Lanes<Real> d;
+        TangentBlock<Real>& out = m_pass.m_tangent[m_block];
+        storeSymmetric(C, out.m_cofactor, m_lane);
+        hn::Store(bulk, d, out.m_bulk + m_lane);
+        hn::Store(patchBulk, d, out.m_patchBulk + m_lane);
+    }
+
+    /// Replaces the responses of lanes whose laws are evaluated one element at a time.
+    HWY_INLINE void respondOneByOne(Vector<Real> lambda, Vector<Real> pressure, const Symmetric<Real>& e,
+                                    ResponseLanes<Real>& law) const
+    {
+        const ElementBlocks<Real>& all = *m_pass.m_elements;
+        if (all.m_single.empty()) return;
+        const Lanes<Real> d;
+        SingleResponses<Real> single;
+        storeSymmetric(e, single.m_strain, 0);
+        hn::Store(lambda, d, single.m_lambda);
+        hn::Store(pressure, d, single.m_pressure);
+        storeSymmetric(law.m_stress, single.m_stress, 0);
+        storeSymmetric(law.m_cofactor, single.m_cofactor, 0);
+        hn::Store(law.m_bulk, d, single.m_bulk);
+        hn::Store(law.m_shear, d, single.m_shear);
+        single.respond(all, m_pass.m_history, m_block * kLanes + m_lane, width<Real>());
+        law.m_stress = loadSymmetric(single.m_stress, 0);
+        law.m_cofactor = loadSymmetric(single.m_cofactor, 0);
+        law.m_bulk = hn::Load(d, single.m_bulk);
+        law.m_shear = hn::Load(d, single.m_shear);
     }
 };
 
@@ -137,10 +163,10 @@ HWY_INLINE void passBlocks(const ElementPass<Real>& pass, Range blocks)
                 return pass.m_initialStress ? withInitialStress(lanes(i), q[i], strainAgain(lanes(i), q[i]), elastic)
                                             : elastic;
             };
-            if (pass.m_cofactor)
+            if (pass.m_tangent)
             {
-                const NeoHookeLanes<Real> law = passNonlinear(lanes(i), q[i], stageNext);
-                storeTangent(lanes(i), law, tensionOf(pass.m_tensionFactor, withGiven(law.m_stress)));
+                const ResponseLanes<Real> law = passResponses(lanes(i), q[i], stageNext);
+                storeTangent(lanes(i), law, number<Real>(0), tensionOf(pass.m_tensionFactor, withGiven(law.m_stress)));
                 continue;
             }
             const Symmetric<Real> stress = withGiven(passElements(lanes(i), q[i], stageNext));
@@ -155,7 +181,8 @@ struct PatchBatch
     int m_column, m_first;
 };
 
-template <class Real>
+/// Patch: PatchStrains or PatchResponses.
+template <class Patch, class Real>
 HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 {
     constexpr int kN = width<Real>(), kVectors = kLanes / kN;
@@ -175,7 +202,7 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
         const int b = in.m_block + batch.m_first + i;
         staged[slot][i].stage(pass, pass.m_elements->m_blocks[b].m_node + in.m_lane, {0, kN});
     };
-    PatchStrains<Real> patch;
+    Patch patch;
     PatchBatch batch = {groups.m_begin * kVectors, 0};
     for (int i = 0; i < kBatch; ++i) stage(batch, i, 0);
     for (int turn = 0; batch.m_column < end; turn = 1 - turn)
@@ -210,7 +237,7 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
                 if (pass.m_initialStress)
                     stress = withInitialStress(elements, loadQuaternions(elements.rotations(), Real()),
                                                patch.m_strain[k], stress);
-                elements.storeTension(tensionOf(pass.m_tensionFactor, stress));
+                patch.storeTension(elements, tensionOf(pass.m_tensionFactor, stress));
             }
         batch = next;
     }
@@ -219,8 +246,9 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 template <class Real>
 void passUnits(const ElementPass<Real>& pass, Range pieces)
 {
-    if (pass.m_elements->hasPatches()) return passPatches(pass, pieces);
-    passBlocks(pass, pieces);
+    if (!pass.m_elements->hasPatches()) return passBlocks(pass, pieces);
+    if (pass.m_tangent) return passPatches<PatchResponses<Real>>(pass, pieces);
+    passPatches<PatchStrains<Real>>(pass, pieces);
 }
 
 template <class Real>

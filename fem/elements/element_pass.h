@@ -32,6 +32,16 @@ struct alignas(64) StressBlock
     Real m_entry[6][kLanes];
 };
 
+/// Derivative of the stress in kLanes elements whose law varies, for products with K': l C (C : H) and, in patches,
+/// C times the patch's mean of C : H, weighted by volume.
+template <class Real>
+struct alignas(64) TangentBlock
+{
+    Real m_cofactor[6][kLanes];  ///< C / sqrt(k): xx, yy, zz, yz, xz, xy
+    Real m_bulk[kLanes];         ///< l [J]
+    Real m_patchBulk[kLanes];    ///< coefficient of the patch's mean [J]; 0 without patches
+};
+
 /// Element pass, once a step: F = D_s D_m^-1 of every element, its polar rotation R, its force and its part of A. With
 /// E = sym(R^T F) - I,
 ///   elastic = V (2 mu E + lambda tr(E) I),   viscous = V (2 mu D + lambda tr(D) I),   D = sym(R^T Fdot),
@@ -54,9 +64,10 @@ struct ElementPass
     WarpedBlock<Real>* m_warped;  ///< out
     bool m_isRotated = false;     ///< true: m_rotation already belongs to m_x, and stays unchanged
     const StressBlock<Real>* m_initialStress = nullptr;  ///< one per block; null for none
-    /// Output for nonlinear laws (neo_hooke.h), one per block: the matrices C' of an ElementProduct. Null if
-    /// ElementBlocks::m_law is empty.
-    StressBlock<Real>* m_cofactor = nullptr;
+    /// Output for laws that vary (law.h), one per block; null if ElementBlocks::m_law is empty. Then m_warped has g'
+    /// sqrt(k) and T / k, so that k multiplies all of K'.
+    TangentBlock<Real>* m_tangent = nullptr;
+    const double* m_history = nullptr;  ///< history variables of the laws (BodyState::m_lawHistory); null for none
 };
 
 /// Runs the pass over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.

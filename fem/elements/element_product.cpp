@@ -12,7 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/neo_hooke-inl.h"
+#include "fem/elements/response_elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -35,12 +35,10 @@ HWY_INLINE void multiplyBlocks(const ElementProduct<Real>& product, Range blocks
         const Matrix<Real> H = times(edges[slot].load(), g);
         const Vector<Real> lambda = hn::Load(d, product.m_elements->m_blocks[b].m_lambdaVolume + lane);
         const Vector<Real> mu = hn::Load(d, product.m_elements->m_blocks[b].m_muVolume + lane);
-        if (product.m_cofactor)
+        if (product.m_tangent)
         {
-            const Symmetric<Real> C = loadSymmetric(product.m_cofactor[b].m_entry, lane);
-            const Matrix<Real> shear =
-                warpedStress<Real>(hn::Zero(d), factor * mu, loadSymmetric(element.m_tension, lane), H);
-            const Matrix<Real> P = plusSymmetric<Real>(shear, factor * contraction(C, H), C);
+            const Matrix<Real> P = tangentTimes<Real>(product.m_tangent[b], loadSymmetric(element.m_tension, lane),
+                                                      lane, factor, mu, hn::Zero(d), H);
             storeCorners(timesTranspose(P, g), product.m_out[b], lane);
             return;
         }
@@ -87,10 +85,46 @@ HWY_INLINE void multiplyPatches(const ElementProduct<Real>& product, Range group
 }
 
 template <class Real>
+HWY_INLINE void multiplyResponsePatches(const ElementProduct<Real>& product, Range groups)
+{
+    const Lanes<Real> d;
+    const Vector<Real> factor = number<Real>(product.m_stiffnessFactor);
+    const ElementBlocks<Real>& elements = *product.m_elements;
+    StagedEdges<Real> edges[2][ElementPatches::kMax];
+    Matrix<Real> H[ElementPatches::kMax];
+    const auto stage = [&](const PatchColumn& column, int k, int slot)
+    { edges[slot][k].stage(elements.m_blocks[column.m_block + k].m_node + column.m_lane, product.m_p); };
+    const auto compute = [&](const PatchColumn& column, int slot, const auto& other)
+    {
+        const int lane = column.m_lane;
+        Vector<Real> mean = hn::Zero(d);
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            const int b = column.m_block + k;
+            H[k] = times(edges[slot][k].load(), loadMatrix(product.m_warped[b].m_gradient, lane));
+            const Symmetric<Real> C = loadSymmetric(product.m_tangent[b].m_cofactor, lane);
+            mean = hn::MulAdd(hn::Load(d, elements.m_share[b].m_lane + lane), contraction(C, H[k]), mean);
+        }
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            other(k);
+            const int b = column.m_block + k;
+            const WarpedBlock<Real>& element = product.m_warped[b];
+            const Vector<Real> mu = hn::Load(d, elements.m_blocks[b].m_muVolume + lane);
+            const Matrix<Real> P = tangentTimes<Real>(product.m_tangent[b], loadSymmetric(element.m_tension, lane),
+                                                      lane, factor, mu, mean, H[k]);
+            storeCorners(timesTranspose(P, loadMatrix(element.m_gradient, lane)), product.m_out[b], lane);
+        }
+    };
+    forEachColumn<Real>(elements.m_groups, groups, stage, compute);
+}
+
+template <class Real>
 void multiplyUnits(const ElementProduct<Real>& product, Range pieces)
 {
-    if (product.m_elements->hasPatches()) return multiplyPatches(product, pieces);
-    multiplyBlocks(product, pieces);
+    if (!product.m_elements->hasPatches()) return multiplyBlocks(product, pieces);
+    if (product.m_tangent) return multiplyResponsePatches(product, pieces);
+    multiplyPatches(product, pieces);
 }
 
 BULLETFEM_KERNEL(multiplyUnits, ElementProduct)

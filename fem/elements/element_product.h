@@ -9,7 +9,7 @@ namespace bullet_fem
 
 /// The elements' part of A p: with H = sum_b (p_b - p_0) g'_b^T, per corner
 ///   f_a = (lambda' tr(H) I + mu' (H + H^T) + H sigma') g'_a.
-/// With m_cofactor, C' (C' : H) replaces lambda' tr(H) I.
+/// With m_tangent, l C' (C' : H) and a patch's part replace lambda' tr(H) I (TangentBlock).
 /// In patches, the V-weighted mean of tr(H) over the patch replaces tr(H), in the diagonal of H, too.
 template <class Real>
 struct ElementProduct
@@ -19,7 +19,7 @@ struct ElementProduct
     double m_stiffnessFactor;                       ///< coefficient of K' in A, c h^2 + h beta [s2]
     const PaddedVec3* m_p;                          ///< per node; differences are taken in double, then rounded to Real
     CornerBlock<Real>* m_out;                       ///< out: f_a, to be summed by sumCorners()
-    const StressBlock<Real>* m_cofactor = nullptr;  ///< C', one per block, from an ElementPass; null for none
+    const TangentBlock<Real>* m_tangent = nullptr;  ///< one per block, from an ElementPass; null for none
 };
 
 /// Runs the product over work units (ElementBlocks::workUnitCount()), on the widest vectors that the processor has.

@@ -30,6 +30,7 @@ struct SmoothedScratch
     std::vector<TensionBlock<Real>> m_tension;
     std::vector<StrainQuads<Real>> m_strain[2];  ///< elastic and damped of the pass; products use the first
     std::vector<DomainStrain<Real>> m_mean[2];   ///< means over the edge domains of m_strain
+    std::vector<StrainBlock<Real>> m_inelastic;  ///< plastic and relaxed strain; empty without
 };
 
 /// Output arrays of one body's element kernels in a step, in one precision.
@@ -45,7 +46,7 @@ struct ElementScratch
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
     std::vector<StressBlock<Real>> m_initialStress;     ///< empty without initial stress
-    std::vector<StressBlock<Real>> m_cofactor;          ///< empty without nonlinear laws
+    std::vector<TangentBlock<Real>> m_tangent;          ///< empty without laws that vary
     std::vector<StrainBlock<Real>> m_strain;            ///< empty until inelastic strains are needed
     std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< empty without orthotropic elements
     SmoothedScratch<Real> m_smoothed;

@@ -144,6 +144,11 @@ HWY_INLINE void strainsOf(const SmoothedPass<Real>& smoothed, int b, int lane, S
     const Matrix<Real> R = toMatrix(q, number<Real>(2));
     storeMatrix(R, smoothed.m_warped[b].m_rotation, lane);
     elastic = strainInFrameOf(R, times(edgesMinusRotated(elements, q), DmInverse));
+    if (smoothed.m_inelastic)
+    {
+        const Symmetric<Real> inelastic = loadSymmetric(smoothed.m_inelastic[b].m_entry, lane);
+        elastic = combined<Real>(number<Real>(1), elastic, number<Real>(-1), withDoubling(inelastic));
+    }
     const Symmetric<Real> rate = strainInFrameOf(R, times(v.load(), DmInverse));
     damped = combined<Real>(number<Real>(pass.m_damping), rate, number<Real>(1), elastic);
 }
@@ -184,7 +189,7 @@ HWY_INLINE void passForces(const SmoothedPass<Real>& pass, int b, int lane)
     smoothed[1].stage(*pass.m_smoothing, pass.m_damped, b, lane);
     Vector<Real> theta, dampedTheta;
     const auto &own = pass.m_elastic.m_element[b].m_quad, &ownDamped = pass.m_damped.m_element[b].m_quad;
-    const Symmetric<Real> strain = loadQuads<Real>(own[0][lane], own[1][lane], theta);
+    Symmetric<Real> strain = loadQuads<Real>(own[0][lane], own[1][lane], theta);
     loadQuads<Real>(ownDamped[0][lane], ownDamped[1][lane], dampedTheta);
 
     Symmetric<Real> stress = smoothedStress<Real>(lambda, mu, smoothed[0].load(), theta);
@@ -195,6 +200,7 @@ HWY_INLINE void passForces(const SmoothedPass<Real>& pass, int b, int lane)
         stress = plus(stress, initial);
         damped = plus(damped, initial);
     }
+    if (pass.m_inelastic) strain = plus(strain, withDoubling(loadSymmetric(pass.m_inelastic[b].m_entry, lane)));
     Vector<Real> w[3];
     balanceTorque(strain, stress, w);
     const Matrix<Real> P = {{{damped.xx, damped.xy - w[2], damped.xz + w[1]},

@@ -70,8 +70,8 @@ struct SmoothedStrain
     DomainStrain<Real>* m_domain;  ///< one per domain
 };
 
-/// Element pass for smoothed strains: with eps_e and its rate in the element's frame, theta the mean volume change over
-/// the element's patch, and s the smoothed strain of EdgeDomains,
+/// Element pass for smoothed strains: with the elastic strain eps_e and its rate in the element's frame, theta the mean
+/// volume change over the element's patch, and s the smoothed strain of EdgeDomains,
 ///     stress = V (2 mu dev(s) + (lambda + 2/3 mu) theta I) + V sigma_0,     f_a = -R_e (stress + W + viscous) g_a,
 /// with the skew W that makes the element's torque zero (withInitialStress()): the forces are the gradient of the
 /// energy
@@ -86,6 +86,8 @@ struct SmoothedPass
     SmoothedStrain<Real> m_elastic;          ///< scratch, strains eps
     SmoothedStrain<Real> m_damped;           ///< scratch, eps + damping times its rate
     SmoothedBlock<Real>* m_warped;           ///< output, one per block
+    /// Plastic and relaxed strain, deviatoric, subtracted from eps before it is averaged; null for none. One per block.
+    const StrainBlock<Real>* m_inelastic = nullptr;
 };
 
 /// Element product for smoothed strains, in the three stages findStrains, averageStrains, findForces.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fem/common/message.h"
+#include "fem/laws/law.h"
 
 namespace bullet_fem
 {
@@ -45,6 +46,24 @@ void checkWithFirst(const MaterialRegion& first, const MaterialRegion& region)
         reject("the density of region ", region.m_label, " is ", b.m_density, " kg/m3, and that of region ",
                first.m_label, " ", a.m_density,
                "; 0 keeps the body's own node masses: give all its regions a density, or none");
+}
+
+// Refuses regions that need elements of different kinds.
+void checkElements(const ElementMaterials& materials)
+{
+    const bool orthotropic = materials.isOrthotropic(), bends = materials.bendsAccurately();
+    for (const auto& [label, material] : materials.m_regions)
+    {
+        const Law& law = lawOf(material.m_law);
+        if (orthotropic && material.usesMeanDilatation())
+            reject("region ", label, " has mean dilatation (nu ", material.m_poissonRatio,
+                   ") beside an orthotropic region; switch it off in all regions of such a body, or give all of them "
+                   "the law hooke");
+        if ((orthotropic || bends) && law.m_kind == LawKind::varying)
+            reject("region ", label, " has the ", law.m_title, " beside ",
+                   orthotropic ? "an orthotropic region; give one of them the law hooke"
+                               : "a region of accurate bending; switch that off, or give it the law hooke");
+    }
 }
 
 }  // namespace
@@ -109,21 +128,14 @@ ElementMaterials ElementMaterials::ofElements(const std::vector<Material>& perEl
 void ElementMaterials::validate(int elementCount) const
 {
     if (m_regions.empty()) reject("there is no material; give one");
-    const bool nonlinear = isNonlinear(), orthotropic = isOrthotropic();
     for (const MaterialRegion& region : m_regions)
     {
         std::string why;
         if (!region.m_material.valid(&why))
             reject(m_regions.size() > 1 ? message("region ", region.m_label, ": ") : "", why);
         checkWithFirst(m_regions.front(), region);
-        if ((nonlinear || orthotropic) && region.m_material.usesMeanDilatation())
-            reject("region ", region.m_label, " has mean dilatation (nu ", region.m_material.m_poissonRatio,
-                   ") beside ", nonlinear ? "a Neo-Hookean" : "an orthotropic",
-                   " region; switch it off in all regions of such a body, or give all of them the law hooke");
-        if (orthotropic && region.m_material.m_law == ElasticLaw::neoHooke)
-            reject("region ", region.m_label,
-                   " is Neo-Hookean beside an orthotropic region; give one of them the law hooke");
     }
+    checkElements(*this);
     if (isUniform() && m_regions.size() > 1)
         reject("there are ", m_regions.size(), " regions and no element is in one; give every element its region");
     if (!isUniform() && static_cast<int>(m_regionOf.size()) != elementCount)
@@ -143,7 +155,8 @@ bool ElementMaterials::usesMeanDilatation() const
 bool ElementMaterials::isNonlinear() const
 {
     return std::any_of(m_regions.begin(), m_regions.end(),
-                       [](const MaterialRegion& region) { return region.m_material.m_law == ElasticLaw::neoHooke; });
+                       [](const MaterialRegion& region)
+                       { return lawOf(region.m_material.m_law).m_kind == LawKind::varying; });
 }
 
 bool ElementMaterials::isOrthotropic() const
@@ -168,6 +181,13 @@ int ElementMaterials::relaxationTerms() const
 {
     int most = 0;
     for (const MaterialRegion& region : m_regions) most = std::max(most, region.m_material.relaxationTerms());
+    return most;
+}
+
+int ElementMaterials::historyCount() const
+{
+    int most = 0;
+    for (const MaterialRegion& region : m_regions) most = std::max(most, lawOf(region.m_material.m_law).m_historyCount);
     return most;
 }
 

@@ -6,6 +6,7 @@
 
 #include "fem/common/bounds.h"
 #include "fem/common/message.h"
+#include "fem/laws/law.h"
 
 namespace bullet_fem
 {
@@ -74,11 +75,6 @@ bool validRelaxation(const std::array<PronyTerm, Material::kMaxRelaxationTerms>&
     return all.contains();
 }
 
-const char* lawName(const Material& material)
-{
-    return material.isOrthotropic() ? "orthotropic law" : "Neo-Hookean law (as jelly and flesh have)";
-}
-
 // Returns false and the reason for an invalid law, or one that conflicts with other values.
 bool validLaw(const Material& material, std::string* why)
 {
@@ -87,21 +83,22 @@ bool validLaw(const Material& material, std::string* why)
         if (why) *why = text;
         return false;
     };
-    if (material.m_law < ElasticLaw::hooke || material.m_law > ElasticLaw::orthotropic)
-        return refuse(message("elastic law is ", static_cast<int>(material.m_law),
-                              ", outside [0, 2]; choose hooke, neoHooke or orthotropic"));
-    if (material.m_law == ElasticLaw::hooke) return true;
-    const char* const law = lawName(material);
+    const int last = static_cast<int>(allLaws().size()) - 1;
+    if (static_cast<int>(material.m_law) < 0 || static_cast<int>(material.m_law) > last)
+        return refuse(message("elastic law is ", static_cast<int>(material.m_law), ", outside [0, ", last,
+                              "]; choose one of: ", listOfLaws()));
+    const Law& law = lawOf(material.m_law);
+    if (!areLawConstants(law, material.m_lawConstants.data(), why)) return false;
+    if (law.m_kind == LawKind::linear) return true;
     if (material.yields())
-        return refuse(message("yield stress [Pa] is ", material.m_yieldStress, " with the ", law,
+        return refuse(message("yield stress [Pa] is ", material.m_yieldStress, " with the ", law.m_title,
                               ", which does not yield; use infinity, or the law hooke"));
     if (material.m_relaxation[0].m_share > 0)
-        return refuse(message("relaxation term 0: its share is ", material.m_relaxation[0].m_share, " with the ", law,
-                              ", which does not relax; use none, or the law hooke"));
-    if (material.m_meanDilatation == MeanDilatation::on)
-        return refuse(message("mean dilatation is on with the ", law,
-                              ", whose elements have their own volume change each; use automatic or off, or the law "
-                              "hooke"));
+        return refuse(message("relaxation term 0: its share is ", material.m_relaxation[0].m_share, " with the ",
+                              law.m_title, ", which does not relax; use none, or the law hooke"));
+    if (material.m_meanDilatation == MeanDilatation::on && law.m_noPatches)
+        return refuse(message("mean dilatation is on with the ", law.m_title, ", which ", law.m_noPatches,
+                              "; use automatic or off, or the law hooke"));
     return !material.isOrthotropic() || material.m_orthotropic.valid(why);
 }
 
@@ -109,48 +106,27 @@ bool validLaw(const Material& material, std::string* why)
 bool validBending(const Material& material, std::string* why)
 {
     if (!material.m_accurateBending) return true;
-    const char* without =
-        material.m_meanDilatation == MeanDilatation::off ? "mean dilatation off; take automatic or on"
-        : material.isOrthotropic()                       ? "the orthotropic law; take the law hooke"
-        : material.m_law != ElasticLaw::hooke ? "the Neo-Hookean law (as jelly and flesh have); take the law hooke"
-        : material.yields()                   ? "a yield stress; take infinity, or another material"
-        : material.relaxationTerms() > 0      ? "relaxation; take terms without a share, or another material"
-                                              : nullptr;
-    if (without && why) *why = message("accurate bending does not go with ", without);
-    return !without;
+    const Law& law = lawOf(material.m_law);
+    const std::string without = material.m_meanDilatation == MeanDilatation::off
+                                    ? "mean dilatation off; take automatic or on"
+                                : law.m_kind != LawKind::linear ? message("the ", law.m_title, "; take the law hooke")
+                                                                : "";
+    if (!without.empty() && why) *why = message("accurate bending does not go with ", without);
+    return without.empty();
 }
 
 }  // namespace
 
-LameModuli& LameModuli::operator+=(const LameModuli& b)
-{
-    m_mu += b.m_mu;
-    m_lambda += b.m_lambda;
-    return *this;
-}
-
-double LameModuli::youngModulus() const
-{
-    const double lambda = std::max(0.0, m_lambda);
-    return m_mu * (3 * lambda + 2 * m_mu) / (lambda + m_mu);
-}
-
-double LameModuli::poissonRatio() const
-{
-    const double lambda = std::max(0.0, m_lambda);
-    return std::min(Material::kMaxPoissonRatio, 0.5 * lambda / (lambda + m_mu));
-}
-
 double Material::lameLambda() const
 {
     if (isOrthotropic()) return m_orthotropic.isotropicPart().m_lambda;
-    return m_youngModulus * m_poissonRatio / ((1 + m_poissonRatio) * (1 - 2 * m_poissonRatio));
+    return lawOf(m_law).m_moduli(m_lawConstants.data(), m_youngModulus, m_poissonRatio).m_lambda;
 }
 
 double Material::lameMu() const
 {
     if (isOrthotropic()) return m_orthotropic.isotropicPart().m_mu;
-    return m_youngModulus / (2 * (1 + m_poissonRatio));
+    return lawOf(m_law).m_moduli(m_lawConstants.data(), m_youngModulus, m_poissonRatio).m_mu;
 }
 
 ElasticMatrix Material::stiffness() const
@@ -160,8 +136,10 @@ ElasticMatrix Material::stiffness() const
 
 bool Material::usesMeanDilatation() const
 {
-    if (m_law != ElasticLaw::hooke) return false;
+    const Law& law = lawOf(m_law);
+    if (law.m_noPatches) return false;
     if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
+    if (law.m_kind != LawKind::linear) return false;
     return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
 }
 

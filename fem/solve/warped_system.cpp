@@ -60,8 +60,9 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
     pass.m_warped = scratch.m_warped.data();
     if (!pass.m_elements->m_law.empty())
     {
-        scratch.m_cofactor.resize(elements.blockCount());
-        pass.m_cofactor = scratch.m_cofactor.data();
+        scratch.m_tangent.resize(elements.blockCount());
+        pass.m_tangent = scratch.m_tangent.data();
+        pass.m_history = body.m_state.m_lawHistory.data();
     }
     if (hasInitialStress(body))
     {
@@ -99,8 +100,14 @@ void runSmoothedPass(Body& body, const ElementPass<Real>& pass, const Threads* t
     SmoothedScratch<Real>& scratch = body.m_workspace.scratch().m_elements.scratch<Real>().m_smoothed;
     scratch.grow(pass.m_elements->blockCount(), smoothing.domainCount());
     const SmoothedStrain<Real> strain[2] = {scratch.strain(0), scratch.strain(1)};
-    runSmoothed(SmoothedPass<Real>{pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()}, *pass.m_elements,
-                strain, 2, threads);
+    SmoothedPass<Real> parts = {pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()};
+    if (smoothsElasticStrain(body))
+    {
+        scratch.m_inelastic.resize(pass.m_elements->blockCount());
+        gatherInelasticStrain(body, threads, scratch.m_inelastic.data());
+        parts.m_inelastic = scratch.m_inelastic.data();
+    }
+    runSmoothed(parts, *pass.m_elements, strain, 2, threads);
 }
 
 template <class Real>
@@ -139,7 +146,7 @@ void product(const Body& body, const Threads* threads, double stiffnessFactor, b
     const ElementBlocks<Real>& blocks = elements.blocks<Real>();
     const ElementProduct<Real> forces = {
         &blocks,         scratch.m_warped.data(),  stiffnessFactor,
-        work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_cofactor.data()};
+        work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_tangent.data()};
     const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
     if (!blocks.m_stiffness.empty())
     {

@@ -4,8 +4,9 @@
 
 #include "fem/body/internal_stress.h"
 #include "fem/common/rotation.h"
+#include "fem/elements/law_points.h"
 #include "fem/elements/model_elements.h"
-#include "fem/elements/neo_hooke.h"
+#include "fem/laws/mean_dilatation.h"
 
 namespace bullet_fem
 {
@@ -49,8 +50,8 @@ double energyOfDomains(const RestShape& shape, const std::vector<SymmetricTensor
 
 }  // namespace
 
-// Element energy: V (mu E:E + lambda/2 tr(E)^2) or V/2 E:C:E, E = sym(R^T F) - I, with the patch's mean in place of
-// tr(E) for patches; a smoothed deviator contributes its unsmoothed share and that of its edge domains; initial stress
+// Element energy: V W(E) of the law, E = sym(R^T F) - I, with the share of lambda that patches average of the patch's
+// mean volume change; a smoothed deviator contributes its unsmoothed share and that of its edge domains; initial stress
 // adds V sigma_0 : E. The state's rotations are those of the start of the last step, outdated in a spinning body: R is
 // recomputed.
 double mechanicalEnergy(const Body& body)
@@ -66,38 +67,36 @@ double mechanicalEnergy(const Body& body)
     const std::vector<int>& lane = body.m_model->elements().m_lanes.m_lane;
     for (std::size_t e = 0; e < tets.size(); ++e)
     {
+        const int index = static_cast<int>(e);
         const RestElement& element = shape.m_elements[e];
         const Vec3& x0 = s.m_x[tets[e][0]];
         const Mat3 F = Mat3::fromColumns(s.m_x[tets[e][1]] - x0, s.m_x[tets[e][2]] - x0, s.m_x[tets[e][3]] - x0) *
                        element.m_DmInverse;
         const Mat3 E = transposeTimes(polarRotation(F, toMatrix(s.m_elementRotation[lane[e]])), F) - Mat3::identity();
         const Mat3 symmetric = 0.5 * (E + transpose(E));
-        const double own = trace(symmetric);
-        double lambda = element.m_lambdaVolume;
+        const Law& law = lawOf(shape.materialOf(index).m_law);
+        LawPoint point = lawPointOf(shape, index, s.m_lawHistory.data());
         if (!patches.empty())
         {
-            dilatation[patches.m_patch[e]] += shape.shareOfPatch(static_cast<int>(e)) * own;
-            lambda = -2.0 / 3 * element.m_muVolume;  // the deviator's part only
+            dilatation[patches.m_patch[e]] += shape.shareOfPatch(index) * volumeChange(law, symmetric);
+            shareWithPatch(law, 0, point);
         }
         const bool isSmoothed = !shape.m_edgeDomains.empty();
         const double share = isSmoothed ? 1 - shape.m_edgeDomains.m_share[e] : 1;
-        if (isSmoothed) strain.push_back(symmetricPart(E));
-        if (shape.isOrthotropic())
-            energy += 0.5 * element.m_volume *
-                      contraction(stressOf(shape.stiffnessOf(static_cast<int>(e)), symmetricPart(E)), symmetricPart(E));
-        else if (shape.materialOf(static_cast<int>(e)).m_law == ElasticLaw::neoHooke)
-            energy += neoHooke(symmetric, lambda, element.m_muVolume).m_energy;
-        else
-            energy += share * (element.m_muVolume * squaredNorm(symmetric) + 0.5 * lambda * own * own);
+        Mat3 elastic = symmetric;  // of the smoothed part
+        if (smoothsElasticStrain(body)) elastic = elastic - toMatrix(inelasticStrain(body, index));
+        if (isSmoothed) strain.push_back(symmetricPart(elastic));
+        energy += share * element.m_volume * law.m_respond(elastic, point).m_energy;
         if (hasInitialStress(body))
             energy += element.m_volume * contraction(initialStress(body, static_cast<int>(e)), symmetricPart(E)) +
                       inelasticEnergy(body, static_cast<int>(e));
     }
     for (std::size_t e = 0; e < tets.size() && !patches.empty(); ++e)
     {
-        const double mean = dilatation[patches.m_patch[e]];
-        const RestElement& element = shape.m_elements[e];
-        energy += 0.5 * (element.m_lambdaVolume + 2.0 / 3 * element.m_muVolume) * mean * mean;
+        const int index = static_cast<int>(e);
+        const LawPoint point = lawPointOf(shape, index, s.m_lawHistory.data());
+        energy += shape.m_elements[e].m_volume *
+                  sharedEnergy(lawOf(shape.materialOf(index).m_law), dilatation[patches.m_patch[e]], point);
     }
     return strain.empty() ? energy : energy + energyOfDomains(shape, strain);
 }

@@ -6,8 +6,9 @@
 
 #include "fem/body/internal_stress.h"
 #include "fem/common/rotation.h"
+#include "fem/elements/law_points.h"
 #include "fem/elements/model_elements.h"
-#include "fem/elements/neo_hooke.h"
+#include "fem/laws/mean_dilatation.h"
 
 namespace bullet_fem
 {
@@ -42,9 +43,15 @@ LeftStretch leftStretch(const Body& body, int e)
     return {R, timesTranspose(F, R)};
 }
 
-double dilatationOf(const LeftStretch& left)
+// Strain S - I turned to world axes.
+Mat3 turnedStrain(const LeftStretch& left)
 {
-    return trace(left.m_stretch) - 3;
+    return 0.5 * (left.m_stretch + transpose(left.m_stretch)) - Mat3::identity();
+}
+
+double volumeChangeOf(const Body& body, int e, const LeftStretch& left)
+{
+    return volumeChange(lawOf(body.m_model->shape().materialOf(e).m_law), turnedStrain(left));
 }
 
 SymmetricTensor strainOf(const LeftStretch& found)
@@ -54,12 +61,20 @@ SymmetricTensor strainOf(const LeftStretch& found)
     return strain;
 }
 
-// Strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or empty to
-// compute them on demand.
+// Strain of an element without plastic and relaxed strain.
+SymmetricTensor elasticStrain(const Body& body, int e)
+{
+    SymmetricTensor strain = strainOf(leftStretch(body, e));
+    if (smoothsElasticStrain(body)) strain += -1.0 * inelasticStrain(body, e);
+    return strain;
+}
+
+// Elastic strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or
+// empty to compute them on demand.
 SymmetricTensor smoothedStrain(const Body& body, int e, const std::vector<SymmetricTensor>& strains)
 {
     const EdgeDomains& domains = body.m_model->shape().m_edgeDomains;
-    const auto own = [&](int other) { return strains.empty() ? strainOf(leftStretch(body, other)) : strains[other]; };
+    const auto own = [&](int other) { return strains.empty() ? elasticStrain(body, other) : strains[other]; };
     const double share = domains.m_share[e];
     SymmetricTensor sum = (1 - share) * own(e);
     if (share == 0) return sum;
@@ -80,38 +95,21 @@ Stress smoothedStress(const Body& body, int e, const Mat3& R, double theta, cons
     return symmetricPart(R * timesTranspose(toMatrix(s), R));
 }
 
-// sigma = R (C (S - I) + sigma_0) R^T
-Stress orthotropicStress(const Body& body, int e, const LeftStretch& found)
-{
-    Stress s = stressOf(body.m_model->shape().stiffnessOf(e), strainOf(found));
-    if (hasInitialStress(body)) s += initialStress(body, e);
-    return symmetricPart(found.m_R * timesTranspose(toMatrix(s), found.m_R));
-}
-
-// sigma = R Hooke(S - I) R^T = Hooke(F R^T - I), because an isotropic law commutes with R; plus R sigma_0 R^T.
+// sigma = R (dW/dS + sigma_0) R^T. An isotropic law commutes with R.
 Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilatation)
 {
-    if (body.m_model->shape().isOrthotropic()) return orthotropicStress(body, e, found);
-    const Material& material = body.m_model->shape().materialOf(e);
-    const Mat3& left = found.m_stretch;
-    const double mu = material.lameMu();
-    const double own = dilatationOf(found);  // equals dilatation outside patches
-    const double pressure = material.lameLambda() * dilatation + 2.0 / 3 * mu * (dilatation - own);
+    const RestShape& shape = body.m_model->shape();
+    const Law& law = lawOf(shape.materialOf(e).m_law);
+    LawPoint point = lawPointOf(shape, e, body.m_state.m_lawHistory.data());
+    if (!shape.m_patches.empty()) shareWithPatch(law, dilatation, point);
+    const bool turns = law.m_kind == LawKind::anisotropic;
     Stress s;
-    if (material.m_law == ElasticLaw::neoHooke)
-        s = symmetricPart(
-            neoHooke(0.5 * (left + transpose(left)) - Mat3::identity(), material.lameLambda(), mu).m_stress);
-    else
-    {
-        s.xx = 2 * mu * (left(0, 0) - 1) + pressure;
-        s.yy = 2 * mu * (left(1, 1) - 1) + pressure;
-        s.zz = 2 * mu * (left(2, 2) - 1) + pressure;
-        s.xy = mu * (left(0, 1) + left(1, 0));
-        s.yz = mu * (left(1, 2) + left(2, 1));
-        s.xz = mu * (left(0, 2) + left(2, 0));
-    }
-    if (!hasInitialStress(body)) return s;
-    return s += symmetricPart(found.m_R * timesTranspose(toMatrix(initialStress(body, e)), found.m_R));
+    if (!turns) s = symmetricPart(law.m_respond(turnedStrain(found), point).m_stress);
+    if (!turns && !hasInitialStress(body)) return s;
+    Stress own;  // in the element's frame
+    if (turns) own = symmetricPart(law.m_respond(toMatrix(strainOf(found)), point).m_stress);
+    if (hasInitialStress(body)) own += initialStress(body, e);
+    return s += symmetricPart(found.m_R * timesTranspose(toMatrix(own), found.m_R));
 }
 
 // Calls visit(e, left stretch, dilatation) for the elements of a patch.
@@ -126,7 +124,7 @@ void visitPatch(const Body& body, int patch, const Visit& visit)
     for (int k = 0; k < count; ++k)
     {
         left[k] = leftStretch(body, element[k]);
-        dilatation += shape.shareOfPatch(element[k]) * dilatationOf(left[k]);
+        dilatation += shape.shareOfPatch(element[k]) * volumeChangeOf(body, element[k], left[k]);
     }
     for (int k = 0; k < count; ++k) visit(element[k], left[k], dilatation);
 }
@@ -140,7 +138,7 @@ Stress elementStress(const Body& body, int e)
     if (model.shape().m_patches.empty())
     {
         const LeftStretch left = leftStretch(body, e);
-        return stressOf(body, e, left, dilatationOf(left));
+        return stressOf(body, e, left, 0);
     }
     Stress stress;
     visitPatch(body, model.shape().m_patches.m_patch[e],
@@ -160,7 +158,7 @@ void elementStresses(const Body& body, std::vector<Stress>& perElement)
     const ElementPatches& patches = model.shape().m_patches;
     std::vector<SymmetricTensor> strains;
     if (!model.shape().m_edgeDomains.empty())
-        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(strainOf(leftStretch(body, e)));
+        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(elasticStrain(body, e));
     for (int p = 0; p < patches.count(); ++p)
         visitPatch(body, p,
                    [&](int e, const LeftStretch& left, double dilatation)

@@ -9,6 +9,7 @@
 #include "LinearMath/btVector3.h"
 #include "bullet_fem/btFemPrecision.h"
 #include "bullet_fem/fem/common/export.h"
+#include "bullet_fem/fem/laws/elastic_law.h"
 
 /// Mean dilatation: whether the tetrahedra of a patch (a lattice cube, or four to eight neighbours in any other mesh)
 /// share one volume change. Linear tetrahedra with separate volume changes lock where nu is near .5.
@@ -19,13 +20,8 @@ enum class btFemMeanDilatation
     off
 };
 
-/// Constitutive law (docs/materials.md, Large strain).
-enum class btFemElasticLaw
-{
-    hooke,       ///< linear in the strain of the rotated frame
-    neoHooke,    ///< equals hooke at small strain; stiffens in tension, and without bound in compression
-    orthotropic  ///< linear as hooke, with the constants and axes of m_orthotropic instead of E and nu
-};
+/// Constitutive law: hooke, neoHooke, orthotropic, ... (docs/materials.md, Laws and elements).
+using btFemElasticLaw = bullet_fem::ElasticLaw;
 
 /// A term g_i exp(-t / tau_i) of the Prony series of the shear modulus.
 struct BULLETFEM_API btFemRelaxation
@@ -74,17 +70,19 @@ struct BULLETFEM_API btFemMaterial
     /// exp(-t / tau_i))) at time t after loading; the bulk modulus does not relax. Terms with a share stand first; the
     /// sum of the shares is at most 0.99.
     btFemRelaxation m_relaxation[kMaxRelaxationTerms];
-    /// Constitutive law; E and nu are its small-strain constants. A Neo-Hookean material cannot yield or relax, and its
-    /// elements each have their own volume change.
+    /// Constitutive law; E and nu are its small-strain constants. Only hooke can yield or relax.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
     /// Accurate bending: averages shear strains around edges, as volume changes over patches, against locking in
     /// bending. Bars of two or more cells across have a bending error of at most 6 %; a step takes two to three times
-    /// as long. Not available with mean dilatation off, nor for materials that yield or relax (docs/materials.md).
+    /// as long. Not available with mean dilatation off, and for the law hooke alone (docs/materials.md).
     bool m_accurateBending = false;
     /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
     /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,
     /// pass a function of position to setMaterials.
     btFemOrthotropic m_orthotropic;
+
+    /// Constants of laws with constants of their own, in the order of docs/materials.md; 0 for the others.
+    btScalar m_lawConstants[bullet_fem::kMaxLawConstants] = {};
 
     /// A transversely isotropic material with fibres along m_orthotropic.m_along and equal directions across: Young's
     /// modulus [Pa] and Poisson's ratio [-] under tension along the fibres, and under tension across them within the
@@ -101,6 +99,23 @@ struct BULLETFEM_API btFemMaterial
     static btFemMaterial clay();      ///< soft clay, undrained: 2.5 MPa, nu .45, 1800 kg/m3, yields at 50 kPa
     static btFemMaterial lead();      ///< 16 GPa, nu .44, 11340 kg/m3, yields at 5.5 MPa and hardens by 20 MPa
     static btFemMaterial mildFoam();  ///< foam that keeps dents: as foam(), yields at 2.5 kPa, with a creep of 2 / s
+
+    /// Rubber by its hardness on Shore's scale A, in [10, 95]: E by Gent's formula, nu from a bulk modulus of 2 GPa,
+    /// 1100 kg/m3, a loss factor of 0.1 at 10 Hz, Hooke's law with mean dilatation (docs/materials.md, Rubber by
+    /// hardness). Outside the range: if `why` is given, it names the value, the range and the remedy, and the default
+    /// material is returned; else std::invalid_argument is thrown.
+    static btFemMaterial shoreA(btScalar hardness, std::string* why = nullptr);
+    /// Hard rubber and thermoplastic elastomers by hardness on Shore's scale D, in [30, 70], as shoreA() with 1200
+    /// kg/m3 and the fit of E by Qi, Joyce and Boyce.
+    static btFemMaterial shoreD(btScalar hardness, std::string* why = nullptr);
+
+    /// Sets m_stiffnessDamping so that the loss factor [-], in [0, 2], of a vibration of `frequency` [Hz], in [1e-3,
+    /// 1e5], is `lossFactor`, beside m_massDamping, which stays. The loss factor grows in proportion to the frequency.
+    /// Returns false, with the reason in `why`, outside the ranges, if m_massDamping alone gives more, or if
+    /// m_stiffnessDamping would be above 10 s; without `why` it throws std::invalid_argument.
+    bool setLossFactor(btScalar lossFactor, btScalar frequency, std::string* why = nullptr);
+    /// The loss factor [-] at a frequency [Hz]: alpha / w + beta w, w = 2 pi frequency.
+    btScalar lossFactor(btScalar frequency) const;
 
     /// True if every value is finite and in its range; else `why` (if given) names the value, the range and the remedy.
     bool valid(std::string* why = nullptr) const;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "bullet_fem/fem/laws/law_table.h"
 #include "plugin/record/btFemRigidFit.h"
 
 using namespace bullet_fem;
@@ -49,7 +50,7 @@ double btFemTooSoft::weightStrain(const FemSoftBody& fem)
     {
         const Material& material = shape.materialOf(e);
         volume += shape.m_elements[e].m_volume;
-        if (material.m_law != ElasticLaw::neoHooke)
+        if (!stiffensInCompression(material.m_law))
             give += shape.m_elements[e].m_volume * material.slowCompliance(down);
     }
     return m_mass / volume * strength * extentAlong(shape.m_mesh, down) * give / volume;

@@ -3,6 +3,8 @@
 #include "bullet_fem/btFemMaterial.h"
 
 #include "bullet_fem/btFemVectors.h"
+#include "bullet_fem/fem/mesh/elastomer.h"
+#include "fem/common/attempt.h"
 #include "plugin/setup/btFemMaterialConversion.h"
 
 namespace
@@ -14,7 +16,7 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
     result.m_youngModulus = static_cast<btScalar>(material.m_youngModulus);
     result.m_poissonRatio = static_cast<btScalar>(material.m_poissonRatio);
     result.m_density = static_cast<btScalar>(material.m_density);
-    result.m_law = static_cast<btFemElasticLaw>(material.m_law);
+    result.m_law = material.m_law;
     result.m_yieldStress = static_cast<btScalar>(material.m_yieldStress);
     result.m_hardeningModulus = static_cast<btScalar>(material.m_hardeningModulus);
     result.m_plasticCreep = static_cast<btScalar>(material.m_plasticCreep);
@@ -22,12 +24,18 @@ btFemMaterial fromCore(const bullet_fem::Material& material)
     return result;
 }
 
+// With the damping of the preset, which fromCore() leaves at the default.
+btFemMaterial fromElastomer(const bullet_fem::Material& material)
+{
+    btFemMaterial result = fromCore(material);
+    result.m_stiffnessDamping = static_cast<btScalar>(material.m_stiffnessDamping);
+    return result;
+}
+
 }  // namespace
 
 static_assert(static_cast<int>(btFemMeanDilatation::off) == static_cast<int>(bullet_fem::MeanDilatation::off));
 
-static_assert(static_cast<int>(btFemElasticLaw::neoHooke) == static_cast<int>(bullet_fem::ElasticLaw::neoHooke));
-static_assert(static_cast<int>(btFemElasticLaw::orthotropic) == static_cast<int>(bullet_fem::ElasticLaw::orthotropic));
 static_assert(btFemMaterial::kMaxRelaxationTerms == bullet_fem::Material::kMaxRelaxationTerms);
 
 bullet_fem::Material coreMaterial(const btFemMaterial& material)
@@ -41,7 +49,7 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
     core.m_massDamping = material.m_massDamping;
     core.m_stiffnessDamping = material.m_stiffnessDamping;
     core.m_meanDilatation = static_cast<bullet_fem::MeanDilatation>(material.m_meanDilatation);
-    core.m_law = static_cast<bullet_fem::ElasticLaw>(material.m_law);
+    core.m_law = material.m_law;
     core.m_accurateBending = material.m_accurateBending;
     core.m_yieldStress = material.m_yieldStress;
     core.m_hardeningModulus = material.m_hardeningModulus;
@@ -54,6 +62,7 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
         core.m_relaxation[i].m_share = term.m_share == btScalar(kMaxShare) ? kMaxShare : double(term.m_share);
         core.m_relaxation[i].m_time = term.m_time;
     }
+    for (int k = 0; k < bullet_fem::kMaxLawConstants; ++k) core.m_lawConstants[k] = material.m_lawConstants[k];
     const btFemOrthotropic& orthotropic = material.m_orthotropic;
     for (int i = 0; i < 3; ++i)
     {
@@ -113,6 +122,31 @@ btFemMaterial btFemMaterial::lead()
 btFemMaterial btFemMaterial::mildFoam()
 {
     return fromCore(bullet_fem::Material::mildFoam());
+}
+
+btFemMaterial btFemMaterial::shoreA(btScalar hardness, std::string* why)
+{
+    return bullet_fem::attemptValue(why, [=] { return fromElastomer(bullet_fem::shoreA(hardness)); });
+}
+btFemMaterial btFemMaterial::shoreD(btScalar hardness, std::string* why)
+{
+    return bullet_fem::attemptValue(why, [=] { return fromElastomer(bullet_fem::shoreD(hardness)); });
+}
+
+bool btFemMaterial::setLossFactor(btScalar lossFactor, btScalar frequency, std::string* why)
+{
+    return bullet_fem::attempt(why,
+                               [&]
+                               {
+                                   bullet_fem::Material core = coreMaterial(*this);
+                                   bullet_fem::setLossFactor(core, lossFactor, frequency);
+                                   m_stiffnessDamping = static_cast<btScalar>(core.m_stiffnessDamping);
+                               });
+}
+
+btScalar btFemMaterial::lossFactor(btScalar frequency) const
+{
+    return static_cast<btScalar>(bullet_fem::lossFactor(coreMaterial(*this), frequency));
 }
 
 bool btFemMaterial::valid(std::string* why) const

@@ -30,6 +30,7 @@ class Material:
     accurate_bending: bool
     mean_dilatation: str
     law: str
+    law_constants: dict[str, float]
     @property
     def relaxation(self) -> _Floats: ...
     @relaxation.setter
@@ -68,7 +69,8 @@ class Material:
         max_plastic_strain: float = 0.5,
         accurate_bending: bool = False,
         mean_dilatation: Literal["automatic", "on", "off"] = "automatic",
-        law: Literal["hooke", "neo_hooke", "orthotropic"] = "hooke",
+        law: str = "hooke",
+        law_constants: Mapping[str, float] = ...,
         relaxation: ArrayLike = ...,
         young_moduli: ArrayLike = ...,
         poisson_ratios: ArrayLike = ...,
@@ -98,6 +100,12 @@ class Material:
     def lead() -> Material: ...
     @staticmethod
     def mild_foam() -> Material: ...
+    @staticmethod
+    def shore_a(hardness: float) -> Material: ...
+    @staticmethod
+    def shore_d(hardness: float) -> Material: ...
+    def set_loss_factor(self, loss_factor: float, frequency: float) -> None: ...
+    def loss_factor(self, frequency: float) -> float: ...
 
 class ElementMaterials:
     def __init__(

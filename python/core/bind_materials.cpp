@@ -2,9 +2,14 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 
+#include "bullet_fem/fem/laws/law_table.h"
+#include "bullet_fem/fem/mesh/elastomer.h"
 #include "python/core/handles.h"
 #include "python/core/materials.h"
 
@@ -108,11 +113,50 @@ void addAxis(Class& material, const char* name, Vec3 Orthotropic::*member, const
         text);
 }
 
+// neoHooke is neo_hooke in Python.
+std::string pythonName(const std::string& law)
+{
+    std::string name;
+    for (const char c : law)
+        name += c >= 'A' && c <= 'Z' ? std::string("_") + static_cast<char>(c - 'A' + 'a') : std::string(1, c);
+    return name;
+}
+
+ElasticLaw lawOfPythonName(const std::string& text)
+{
+    std::string name;
+    for (std::size_t k = 0; k < text.size(); ++k)
+        name += text[k] == '_' && k + 1 < text.size() ? static_cast<char>(text[++k] - 'a' + 'A') : text[k];
+    ElasticLaw law = ElasticLaw::hooke;
+    if (pythonName(name) != text || !findLaw(name, law))
+        throw py::value_error("law is '" + text + "': it must be one of " + pythonName(listOfLaws()));
+    return law;
+}
+
+std::map<std::string, double> lawConstantsOf(const Material& material)
+{
+    std::map<std::string, double> constants;
+    for (std::size_t k = 0; k < constantsOf(material.m_law).size(); ++k)
+        constants[constantsOf(material.m_law)[k].m_name] = material.m_lawConstants[k];
+    return constants;
+}
+
+void setLawConstants(Material& material, const std::map<std::string, double>& values)
+{
+    const std::vector<LawConstant>& known = constantsOf(material.m_law);
+    std::array<double, kMaxLawConstants> constants = {};
+    for (std::size_t k = 0; k < known.size(); ++k)
+        constants[k] = values.count(known[k].m_name) ? values.at(known[k].m_name) : known[k].m_default;
+    for (const auto& [name, value] : values)
+        if (std::none_of(known.begin(), known.end(), [&](const LawConstant& c) { return c.m_name == name; }))
+            throw py::value_error("'" + name + "' is no constant of the law " + nameOf(material.m_law));
+    material.m_lawConstants = constants;
+}
+
 template <class Class>
 void addChoices(Class& material)
 {
     static const auto kDilatations = {"automatic", "on", "off"};
-    static const auto kLaws = {"hooke", "neo_hooke", "orthotropic"};
     material
         .def_property(
             "mean_dilatation",
@@ -121,9 +165,11 @@ void addChoices(Class& material)
             { self.m_meanDilatation = choiceOf<MeanDilatation>(text, "mean_dilatation", kDilatations); },
             "Whether patches of elements share one volume change, against locking: 'automatic', 'on' or 'off'.")
         .def_property(
-            "law", [](const Material& self) { return *(kLaws.begin() + int(self.m_law)); },
-            [](Material& self, const std::string& text) { self.m_law = choiceOf<ElasticLaw>(text, "law", kLaws); },
-            "Constitutive law: 'hooke', 'neo_hooke' or 'orthotropic'.")
+            "law", [](const Material& self) { return pythonName(nameOf(self.m_law)); },
+            [](Material& self, const std::string& text) { self.m_law = lawOfPythonName(text); },
+            "Constitutive law: 'hooke', 'neo_hooke', 'orthotropic' or another of docs/materials.md.")
+        .def_property("law_constants", &lawConstantsOf, &setLawConstants,
+                      "Constants of laws with constants of their own by name, a dict; set the law before them.")
         .def_readwrite("accurate_bending", &Material::m_accurateBending,
                        "Averages shear strains around edges, so that few cells bend well.")
         .def_property("relaxation", &relaxationOf, &setRelaxation,
@@ -239,6 +285,13 @@ void bindMaterials(py::module_& module)
     for (const auto& [name, make] : presets)
         material.def_static(
             name, [make = make] { return damped(make()); }, "A preset of docs/materials.md.");
+    material
+        .def_static("shore_a", &shoreA, py::arg("hardness"), "Rubber of a hardness on Shore's scale A, in [10, 95].")
+        .def_static("shore_d", &shoreD, py::arg("hardness"),
+                    "Hard rubber or thermoplastic elastomer of a hardness on Shore's scale D, in [30, 70].")
+        .def("set_loss_factor", &setLossFactor, py::arg("loss_factor"), py::arg("frequency"),
+             "Sets stiffness_damping so that the loss factor [-] at a frequency [Hz] is this; mass_damping stays.")
+        .def("loss_factor", &lossFactor, py::arg("frequency"), "The loss factor [-] at a frequency [Hz].");
     material.attr("__hash__") = py::none();
     bindElementMaterials(module);
 }

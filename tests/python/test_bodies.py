@@ -79,6 +79,19 @@ def test_presets_are_damped_as_bodies_are(name):
     assert material.stiffness_damping == 0.005
 
 
+def test_elastomers_have_hardness_and_loss_factor():
+    rubber = bf.Material.shore_a(40)
+    assert rubber.young_modulus == pytest.approx(1.69e6, rel=1e-3) and rubber.poisson_ratio == 0.499
+    assert bf.Material.shore_d(40).young_modulus > bf.Material.shore_a(90).young_modulus
+    assert rubber.loss_factor(10) == pytest.approx(0.1)
+    rubber.set_loss_factor(0.3, 5)
+    assert rubber.loss_factor(5) == pytest.approx(0.3)
+    with pytest.raises(ValueError, match=r"\[Shore A\] is 5"):
+        bf.Material.shore_a(5)
+    with pytest.raises(ValueError, match="loss factor"):
+        rubber.set_loss_factor(-1, 5)
+
+
 def test_materials_have_values():
     material = bf.Material(young_modulus=2e6, poisson_ratio=0.45, law="neo_hooke", relaxation=())
     assert material.young_modulus == 2e6 and material.law == "neo_hooke" and material.mean_dilatation == "automatic"

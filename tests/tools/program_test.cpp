@@ -240,6 +240,23 @@ TEST_F(Program, BakesWithTheGivenLaw)
             "accurate bending does not go with the Neo-Hookean law (as jelly and flesh have); take the law hooke");
 }
 
+TEST_F(Program, BakesRubberByItsHardness)
+{
+    const std::string bake = "bake " + path("two.node") + " -o " + path("rubber.bfem");
+    figures(bake + " --shore-a 40 --loss 0.2 5");
+    const json rubber = figures("info " + path("rubber.bfem"));
+    EXPECT_NEAR(rubber["young"].get<double>() / 1.689639e6, 1, 1e-5);
+    EXPECT_NEAR(rubber["poisson"].get<double>(), .499, 1e-6);
+    figures(bake + " --shore-d 50 --poisson .45");
+    EXPECT_NEAR(figures("info " + path("rubber.bfem"))["poisson"].get<double>(), .45, 1e-6);
+    refused(bake + " --shore-a 5", 2, "must be a number in [10, 95]");
+    refused(bake + " --shore-a 50 --shore-d 50", 2, "excludes");
+    refused(bake + " --shore-a 50 --material foam", 2, "excludes");
+    refused(bake + " --loss 0.2", 2, "--loss");
+    refused(bake + " --loss 0.2 5 --stiffness-damping 0.1", 2, "excludes");
+    refused(bake + " --loss 3 5", 1, "loss factor [-] is 3, outside [0, 2]");
+}
+
 TEST_F(Program, TellsRegionsAndBakesThem)
 {
     const json mesh = figures("info " + path("regions.msh"));
@@ -250,6 +267,7 @@ TEST_F(Program, TellsRegionsAndBakesThem)
     const std::string bake = "bake " + path("regions.msh") + " -o " + path("regions.bfem") + " --density 1500";
     figures(bake + " --region 1:rubber --region=-2:young=3e7,poisson=.25");
     const json told = figures("info " + path("regions.bfem"));
+    refused(bake + " --region 1:shoreA=5 --region=-2:foam", 1, "hardness [Shore A] is 5, outside [10, 95]");
     EXPECT_EQ(told["version"], 3);
     EXPECT_FALSE(told.contains("young"));
     EXPECT_EQ(told["region 1"]["young"], 2e6);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bullet_fem/fem/mesh/elastomer.h"
 #include "tools/scene/scene_world.h"
 #include "tools/scene_samples.h"
 
@@ -225,6 +226,26 @@ TEST_F(SceneReader, ReadsHowAMaterialYields)
     EXPECT_EQ(materialOf(relaxing).m_relaxation[0].m_time, btScalar(0.5));
     EXPECT_TRUE(material(R"("like": "clay")").yields());
     EXPECT_TRUE(material(R"("like": "mildFoam")").yields());
+}
+
+TEST_F(SceneReader, ReadsHardnessAndLossFactor)
+{
+    const auto material = [this](const std::string& members)
+    {
+        return parse(R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + members +
+                     "} }] }")
+            .m_softBodies[0]
+            .m_material;
+    };
+    EXPECT_EQ(material(R"("shoreA": 40)"), shoreA(40));
+    EXPECT_EQ(material(R"("shoreD": 50)"), shoreD(50));
+    const Material given =
+        material(R"("shoreA": 40, "poisson": 0.45, "massDamping": 1, "loss": { "factor": 0.3, "frequency": 5 })");
+    EXPECT_EQ(given.m_youngModulus, shoreA(40).m_youngModulus);
+    EXPECT_EQ(given.m_poissonRatio, 0.45);
+    EXPECT_NEAR(lossFactor(given, 5), 0.3, 1e-12);
+    EXPECT_EQ(given.m_massDamping, 1);
+    EXPECT_EQ(materialOf(given).m_stiffnessDamping, btScalar(given.m_stiffnessDamping));
 }
 
 TEST_F(SceneReader, ReadsOrthotropicConstants)

@@ -64,9 +64,9 @@ const BadValue kUnknown[] = {
      "solver has a member 'iterations', which is not known; those that are: coupled, tolerance, contactTolerance, "
      "threads"},
     {"InAMaterial", true, "/materials/gum/nu", "1",
-     "materials.gum has a member 'nu', which is not known; those that are: like, young, poisson, density, massDamping, "
-     "stiffnessDamping, meanDilatation, accurateBending, yieldStress, hardening, plasticCreep, "
-     "mostPlasticStrain, relaxation, law, orthotropic"},
+     "materials.gum has a member 'nu', which is not known; those that are: like, shoreA, shoreD, young, poisson, "
+     "density, massDamping, stiffnessDamping, loss, meanDilatation, accurateBending, yieldStress, hardening, "
+     "plasticCreep, mostPlasticStrain, relaxation, law, lawConstants, orthotropic"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "
      "material, materials, friction, restitution, selfContact, colour, pins, pieces, fracture, copies"},
@@ -156,6 +156,20 @@ const BadValue kOutOfRange[] = {
     {"Threads", true, "/solver/threads", "0", "solver.threads is 0; it must be a whole number in [1, 64]"},
     {"YieldStress", true, "/materials/gum/yieldStress", "0",
      "materials.gum.yieldStress is 0; it must be a number in (0, 1e+13]"},
+    {"ShoreA", true, "/materials/tyre/shoreA", "96", "materials.tyre.shoreA is 96; it must be a number in [10, 95]"},
+    {"ShoreD", true, "/materials/roller/shoreD", "20",
+     "materials.roller.shoreD is 20; it must be a number in [30, 70]"},
+    {"TwoHardnesses", true, "/materials/tyre/shoreD", "50",
+     "materials.tyre has two of 'like', 'shoreA' and 'shoreD', which give all values; give one"},
+    {"HardnessAndLike", true, "/materials/tyre/like", R"("rubber")",
+     "materials.tyre has two of 'like', 'shoreA' and 'shoreD', which give all values; give one"},
+    {"LossFactor", true, "/materials/timber/loss/factor", "3",
+     "materials.timber.loss.factor is 3; it must be a number in [0, 2]"},
+    {"LossAndStiffnessDamping", true, "/materials/timber/stiffnessDamping", "0.01",
+     "materials.timber has both 'loss' and 'stiffnessDamping', which the loss factor determines; give one"},
+    {"LossBelowThatOfTheMassDamping", true, "/materials/timber/massDamping", "100",
+     "materials.timber.loss is no damping: loss factor [-] is 0.02 at 40 Hz, less than the 0.3978873577 of the mass "
+     "damping alone; reduce the mass damping"},
     {"MostPlasticStrain", true, "/materials/gum/mostPlasticStrain", "1",
      "materials.gum.mostPlasticStrain is 1; it must be a number in (0, 0.9]"},
     {"RelaxationShare", true, "/materials/gum/relaxation/0/share", "1",
@@ -247,7 +261,7 @@ const BadValue kMeaning[] = {
      "mildFoam, rubber, wood"},
     {"UnknownMaterialAsKind", true, "/softBodies/0/material/like", R"("gold")",
      "softBodies[0].material.like is \"gold\"; it must be the name of a material: clay, flesh, foam, gum, jelly, "
-     "lead, mildFoam, rubber, timber, wood"},
+     "lead, mildFoam, roller, rubber, timber, tyre, wood"},
     {"UnknownSoftBody", true, "/constraints/0/soft", R"("hammer")",
      "constraints[0].soft is \"hammer\"; it must be the name of a soft body"},
     {"UnknownRigidBody", true, "/constraints/1/to", R"("block")",

@@ -45,6 +45,7 @@ struct SchemaPlace
 const SchemaPlace kObjects[] = {{true, "", ""},
                                 {true, "/solver", "/properties/solver"},
                                 {true, "/materials/gum", "/definitions/material"},
+                                {true, "/materials/timber/loss", "/definitions/loss"},
                                 {true, "/materials/gum/relaxation/0", "/definitions/relaxationTerm"},
                                 {true, "/materials/timber/orthotropic", "/definitions/orthotropic"},
                                 {true, "/softBodies/0", "/definitions/softBody"},
@@ -143,6 +144,7 @@ protected:
                                                 "puts the last copy beyond",
                                                 "accurate bending does not go with",  // of the `like` material, too
                                                 "is no material: orthotropic",        // inconsistent numbers
+                                                "is no damping",                      // with the mass damping
                                                 "with the orthotropic law",           // which may come from `like`
                                                 "only soft bodies have nodes"};
         const bool isMeaning =

@@ -11,6 +11,7 @@
 
 #include "bullet_fem/fem/baked/baked_body.h"
 #include "bullet_fem/fem/cage/cage_report.h"
+#include "bullet_fem/fem/laws/law_table.h"
 #include "bullet_fem/io/surface_file.h"
 #include "bullet_fem/io/tet_mesh_file.h"
 #include "io/text/file_bytes.h"
@@ -69,13 +70,22 @@ struct InfoCommand
         m_figures.add("massDamping", info.m_material.m_massDamping, "1/s");
         m_figures.add("stiffnessDamping", info.m_material.m_stiffnessDamping, "s");
         if (info.m_regions == 1) m_figures.add("meanDilatation", info.m_material.usesMeanDilatation() ? "on" : "off");
-        if (info.m_regions == 1 && info.m_material.m_law == ElasticLaw::neoHooke) m_figures.add("law", "neoHooke");
+        if (info.m_regions == 1 && info.m_material.m_law != ElasticLaw::hooke && !info.m_material.isOrthotropic())
+            tellLaw(info.m_material);
         if (info.m_regions == 1 && info.m_material.m_accurateBending) m_figures.add("accurateBending", "on");
         if (info.m_regions == 1 && info.m_material.yields())
             m_figures.add("yieldStress", info.m_material.m_yieldStress, "Pa");
         m_figures.add("step", info.m_step, "s");
         m_figures.add("precision", info.m_singlePrecision ? "single" : "double");
         if (info.m_regions > 1) tellRegions(readBakedBody(m_file));
+    }
+
+    void tellLaw(const Material& material)
+    {
+        m_figures.add("law", nameOf(material.m_law));
+        const std::vector<LawConstant>& constants = constantsOf(material.m_law);
+        for (std::size_t k = 0; k < constants.size(); ++k)
+            m_figures.add(constants[k].m_name, material.m_lawConstants[k], constants[k].m_unit);
     }
 
     void tellOrthotropic(const Orthotropic& m)

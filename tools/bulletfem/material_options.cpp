@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "bullet_fem/fem/mesh/elastomer.h"
 #include "tools/console/option_range.h"
 
 namespace bullet_fem
@@ -22,7 +23,7 @@ const std::map<std::string, Material> kPresets = {{"rubber", Material::rubber()}
                                                   {"lead", Material::lead()},     {"mildFoam", Material::mildFoam()}};
 
 constexpr const char* kRegionForm =
-    "; give its label and what it is made of, as 7:rubber or 7:rubber,young=2e5,poisson=.45,density=1100";
+    "; give its label and what it is made of, as 7:rubber, 7:shoreA=40 or 7:rubber,young=2e5,poisson=.45,density=1100";
 
 double valueOf(const std::string& text)
 {
@@ -30,6 +31,17 @@ double valueOf(const std::string& text)
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != 0) throw std::runtime_error("'" + text + "' is no number");
     return value;
+}
+
+// Takes a region's preset; settings of the body stay.
+void takePreset(const Material& preset, Material& material)
+{
+    const Material body = material;
+    material = preset;
+    material.m_massDamping = body.m_massDamping;
+    material.m_stiffnessDamping = body.m_stiffnessDamping;
+    material.m_meanDilatation = body.m_meanDilatation;
+    material.m_accurateBending = body.m_accurateBending;
 }
 
 // Parses a preset, or the name of a value and the value.
@@ -40,15 +52,11 @@ void take(const std::string& part, Material& material)
     {
         const auto preset = kPresets.find(part);
         if (preset == kPresets.end()) throw std::runtime_error("'" + part + "' is no material");
-        const Material body = material;  // settings of the body that a region's preset keeps
-        material = preset->second;
-        material.m_massDamping = body.m_massDamping;
-        material.m_stiffnessDamping = body.m_stiffnessDamping;
-        material.m_meanDilatation = body.m_meanDilatation;
-        material.m_accurateBending = body.m_accurateBending;
-        return;
+        return takePreset(preset->second, material);
     }
     const std::string name = part.substr(0, sign);
+    if (name == "shoreA") return takePreset(shoreA(valueOf(part.substr(sign + 1))), material);
+    if (name == "shoreD") return takePreset(shoreD(valueOf(part.substr(sign + 1))), material);
     double Material::*const member = name == "young"     ? &Material::m_youngModulus
                                      : name == "poisson" ? &Material::m_poissonRatio
                                      : name == "density" ? &Material::m_density
@@ -100,12 +108,23 @@ void MaterialOptions::add(CLI::App& command)
         .add_option("--material", m_preset,
                     "rubber, foam, jelly, flesh, wood, clay, lead or mildFoam (default: E 1e6 Pa, nu .3, 1000 kg/m3)")
         ->check(CLI::IsMember({"rubber", "foam", "jelly", "flesh", "wood", "clay", "lead", "mildFoam"}));
+    auto* const hardnessA = command.add_option("--shore-a", m_shoreA, "rubber of this hardness [Shore A]");
+    hardnessA->check(inRange(kMinShoreA, kMaxShoreA))->excludes("--material");
+    command.add_option("--shore-d", m_shoreD, "hard rubber or thermoplastic elastomer of this hardness [Shore D]")
+        ->check(inRange(kMinShoreD, kMaxShoreD))
+        ->excludes("--material")
+        ->excludes(hardnessA);
     command.add_option("--young", m_young, "Young's modulus [Pa]")->check(inRange(1e-3, 1e13));
     command.add_option("--poisson", m_poisson, "Poisson's ratio [-]")->check(inRange(0, Material::kMaxPoissonRatio));
     command.add_option("--density", m_density, "density [kg/m3]")->check(inRange(1e-6, 1e6));
     command.add_option("--mass-damping", m_massDamping, "Rayleigh's alpha [1/s] (default 0)")->check(inRange(0, 1e4));
     command.add_option("--stiffness-damping", m_stiffnessDamping, "Rayleigh's beta [s] (default 0.005)")
         ->check(inRange(0, 10));
+    command
+        .add_option("--loss", m_loss,
+                    "in place of --stiffness-damping: loss factor [-] and the frequency [Hz] that it is for")
+        ->expected(2)
+        ->excludes("--stiffness-damping");
     command
         .add_option(
             "--mean-dilatation", m_meanDilatation,
@@ -125,14 +144,24 @@ void MaterialOptions::add(CLI::App& command)
         ->allow_extra_args(false);
 }
 
+Material MaterialOptions::base() const
+{
+    if (m_shoreA) return shoreA(*m_shoreA);
+    if (m_shoreD) return shoreD(*m_shoreD);
+    Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
+    material.m_stiffnessDamping = 0.005;  // as in btFemMaterial
+    return material;
+}
+
 Material MaterialOptions::material() const
 {
-    Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
-    material.m_stiffnessDamping = m_stiffnessDamping.value_or(0.005);  // as in btFemMaterial
+    Material material = base();
+    material.m_stiffnessDamping = m_stiffnessDamping.value_or(material.m_stiffnessDamping);
     material.m_youngModulus = m_young.value_or(material.m_youngModulus);
     material.m_poissonRatio = m_poisson.value_or(material.m_poissonRatio);
     material.m_density = m_density.value_or(material.m_density);
     material.m_massDamping = m_massDamping.value_or(material.m_massDamping);
+    if (!m_loss.empty()) setLossFactor(material, m_loss[0], m_loss[1]);
     material.m_meanDilatation = m_meanDilatation == "on"    ? MeanDilatation::on
                                 : m_meanDilatation == "off" ? MeanDilatation::off
                                                             : MeanDilatation::automatic;

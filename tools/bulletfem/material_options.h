@@ -26,10 +26,13 @@ public:
 private:
     std::optional<ElasticLaw> law() const;  // replaces the preset's law
 
+    Material base() const;  // preset, or an elastomer of the given hardness
+
     std::string m_preset, m_meanDilatation, m_law;
     bool m_accurateBending = false;
     std::vector<std::string> m_regions;
-    std::optional<double> m_young, m_poisson, m_density, m_massDamping, m_stiffnessDamping;
+    std::optional<double> m_shoreA, m_shoreD, m_young, m_poisson, m_density, m_massDamping, m_stiffnessDamping;
+    std::vector<double> m_loss;  // loss factor and frequency; empty if not given
 };
 
 }  // namespace bullet_fem

@@ -16,7 +16,7 @@ btFemMaterial materialOf(const Material& material)
     result.m_massDamping = btScalar(material.m_massDamping);
     result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
     result.m_meanDilatation = static_cast<btFemMeanDilatation>(material.m_meanDilatation);
-    result.m_law = static_cast<btFemElasticLaw>(material.m_law);
+    result.m_law = material.m_law;
     result.m_accurateBending = material.m_accurateBending;
     result.m_yieldStress = btScalar(material.m_yieldStress);
     result.m_hardeningModulus = btScalar(material.m_hardeningModulus);
@@ -25,6 +25,8 @@ btFemMaterial materialOf(const Material& material)
     for (std::size_t i = 0; i < material.m_relaxation.size(); ++i)
         result.m_relaxation[i] = {btScalar(material.m_relaxation[i].m_share),
                                   btScalar(material.m_relaxation[i].m_time)};
+    for (std::size_t k = 0; k < material.m_lawConstants.size(); ++k)
+        result.m_lawConstants[k] = btScalar(material.m_lawConstants[k]);
     const Orthotropic& orthotropic = material.m_orthotropic;
     for (int i = 0; i < 3; ++i)
     {

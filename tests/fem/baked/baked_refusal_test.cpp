@@ -72,7 +72,7 @@ TEST_F(BakedFiles, AreRefusedWithNameReasonAndRemedy)
     EXPECT_THAT(readingOf(with(8, std::uint32_t(0x04030201))), says("other byte order", "bake it on"));
     EXPECT_THAT(readingOf(with(8, std::uint32_t(0x01020305))), says("byte order mark", "anew"));
     EXPECT_THAT(readingOf(with(12, kBakedVersion - 1)), says("older version 1", "bake it anew"));
-    EXPECT_THAT(readingOf(with(12, kBakedOrthotropicVersion + 1)), says("newer version 5", "newer BulletFEM"));
+    EXPECT_THAT(readingOf(with(12, kBakedConstantsVersion + 1)), says("newer version 5", "newer BulletFEM"));
     EXPECT_THAT(readingOf(with(100, '\7')), says("header is damaged", "anew"));
     EXPECT_THAT(readingOf(with(m_bytes.size() - 1, '\7')), says("damaged", "anew"));
 }

@@ -3,7 +3,7 @@
 //
 // The Neo-Hookean law in the element kernels: against its energy, and against plain C++.
 #include "fem/common/rotation.h"
-#include "fem/elements/neo_hooke.h"
+#include "fem/laws/neo_hooke.h"
 #include "fem/scenes/element_case.h"
 #include "fem/scenes/reference_elements.h"
 
@@ -61,11 +61,11 @@ protected:
     }
 
     template <class Real>
-    static std::vector<Vec3> forces(ElementCase<Real>& kernels, std::vector<StressBlock<Real>>& cofactor)
+    static std::vector<Vec3> forces(ElementCase<Real>& kernels, std::vector<TangentBlock<Real>>& tangent)
     {
-        cofactor.resize(kernels.m_elements.blockCount());
+        tangent.resize(kernels.m_elements.blockCount());
         ElementPass<Real> pass = kernels.pass();
-        pass.m_cofactor = cofactor.data();
+        pass.m_tangent = tangent.data();
         runElementPass(pass, kernels.blocks());
         return kernels.cornerSums();
     }
@@ -83,8 +83,8 @@ TEST_P(NeoHookeKernel, ForcesAreTheGradientOfTheEnergy)
             deform(mesh, height, 0.05);
             const RestShape shape(mesh, neoHookeanAt(nu));
             ElementCase<double> kernels(shape, m_x, m_v);
-            std::vector<StressBlock<double>> cofactor;
-            const std::vector<Vec3> f = forces(kernels, cofactor);
+            std::vector<TangentBlock<double>> tangent;
+            const std::vector<Vec3> f = forces(kernels, tangent);
             const double d = 1e-6 * mesh.meanEdgeLength();
             for (std::size_t i = 0; i < m_x.size(); ++i)
                 for (int c = 0; c < 3; ++c)
@@ -109,16 +109,16 @@ TEST_P(NeoHookeKernel, MatchesItsScalarReference)
         RandomVectors random(4);
         for (Vec3& v : m_v) v = random.next();
         ElementCase<float> kernels(shape, m_x, m_v), twin(shape, m_x, m_v);
-        std::vector<StressBlock<float>> cofactor, expected(twin.m_elements.blockCount());
-        const std::vector<Vec3> f = forces(kernels, cofactor);
+        std::vector<TangentBlock<float>> tangent, expected(twin.m_elements.blockCount());
+        const std::vector<Vec3> f = forces(kernels, tangent);
         ElementPass<float> pass = twin.pass();
-        pass.m_cofactor = expected.data();
+        pass.m_tangent = expected.data();
         reference::runElementPass(pass, twin.blocks());
         const std::vector<Vec3> fOfTwin = twin.cornerSums();
         EXPECT_LE(largestDistance(f, fOfTwin), 1e-5 * largest(f));
         const std::vector<PaddedVec3> p = padded(m_v);
         ElementProduct<float> product = kernels.product(p), productOfTwin = twin.product(p);
-        product.m_cofactor = cofactor.data(), productOfTwin.m_cofactor = expected.data();
+        product.m_tangent = tangent.data(), productOfTwin.m_tangent = expected.data();
         runElementProduct(product, kernels.blocks());
         reference::runElementProduct(productOfTwin, twin.blocks());
         const std::vector<Vec3> Ap = kernels.cornerSums(), ApOfTwin = twin.cornerSums();
@@ -141,8 +141,8 @@ TEST_P(NeoHookeKernel, TangentIsHookesAtRestAndCoversTheLaws)
             for (const Vec3& X : mesh.restPositions()) m_x.push_back(F * X);
             m_v.assign(4, Vec3());
             ElementCase<double> kernels(shape, m_x, m_v);
-            std::vector<StressBlock<double>> cofactor;
-            forces(kernels, cofactor);
+            std::vector<TangentBlock<double>> tangent;
+            forces(kernels, tangent);
             const double V = shape.m_elements[0].m_volume, d = 1e-4;
             for (int axis = 0; axis < 3; ++axis)
             {
@@ -154,7 +154,7 @@ TEST_P(NeoHookeKernel, TangentIsHookesAtRestAndCoversTheLaws)
                 }
                 const std::vector<PaddedVec3> p = padded(u);
                 ElementProduct<double> product = kernels.product(p);
-                product.m_cofactor = cofactor.data();
+                product.m_tangent = tangent.data();
                 runElementProduct(product, kernels.blocks());
                 const std::vector<Vec3> Au = kernels.cornerSums();
                 double covered = 0;
@@ -183,15 +183,15 @@ TEST_P(NeoHookeKernel, DegenerateElementsAreDrivenBack)
         m_x.clear();
         for (const Vec3& X : mesh.restPositions()) m_x.push_back({X.x, X.y, height * X.z});
         ElementCase<float> kernels(shape, m_x, m_v);
-        std::vector<StressBlock<float>> cofactor;
-        const std::vector<Vec3> f = forces(kernels, cofactor);
+        std::vector<TangentBlock<float>> tangent;
+        const std::vector<Vec3> f = forces(kernels, tangent);
         for (const Vec3& force : f) EXPECT_LT(norm(force), 1e9);
         EXPECT_GT(f[3].z, 5 * 1e4 / 6) << height;  // 10 E on the face, V 1/6
     }
     m_x.assign(4, Vec3());
     ElementCase<float> kernels(shape, m_x, m_v);
-    std::vector<StressBlock<float>> cofactor;
-    for (const Vec3& force : forces(kernels, cofactor)) EXPECT_LT(norm(force), 1e9);
+    std::vector<TangentBlock<float>> tangent;
+    for (const Vec3& force : forces(kernels, tangent)) EXPECT_LT(norm(force), 1e9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, NeoHookeKernel, testing::ValuesIn(availableTargets()), targetName);

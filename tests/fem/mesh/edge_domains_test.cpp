@@ -110,7 +110,7 @@ TEST(EdgeDomains, AreEmptyForOtherMaterials)
     EXPECT_TRUE(RestShape(makeBox({1, 1, 1}, {2, 2, 2}), elasticMaterial(1e6, .45)).m_edgeDomains.empty());
 }
 
-TEST(EdgeDomains, NeedMeanDilatationAndAnElasticMaterial)
+TEST(EdgeDomains, NeedMeanDilatation)
 {
     std::string why;
     Material material = bending();
@@ -121,12 +121,8 @@ TEST(EdgeDomains, NeedMeanDilatationAndAnElasticMaterial)
     EXPECT_EQ(why, "accurate bending does not go with mean dilatation off; take automatic or on");
     material = bending();
     material.m_yieldStress = 1e4;
-    EXPECT_FALSE(material.valid(&why));
-    EXPECT_EQ(why, "accurate bending does not go with a yield stress; take infinity, or another material");
-    material = bending();
     material.m_relaxation[0] = {.3, 1};
-    EXPECT_FALSE(material.valid(&why));
-    EXPECT_EQ(why, "accurate bending does not go with relaxation; take terms without a share, or another material");
+    EXPECT_TRUE(material.valid(&why)) << why;
 }
 
 }  // namespace

@@ -91,8 +91,7 @@ TEST(Material, NeoHookeanPresetsNameTheRemedyForConflicts)
          {+[](Material& m) { m.m_accurateBending = true; }, +[](Material& m) { m.m_yieldStress = 1e3; },
           +[](Material& m) {
               m.m_relaxation[0] = {.3, 1};
-          },
-          +[](Material& m) { m.m_meanDilatation = MeanDilatation::on; }})
+          }})
     {
         Material material = Material::jelly();
         spoil(material);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Elastic constants of orthotropic materials, and rejected ones.
-#include "bullet_fem/fem/mesh/orthotropic.h"
+#include "bullet_fem/fem/laws/orthotropic.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "benchmarks/reference/positive_part.h"
 #include "bullet_fem/fem/common/symmetric.h"
-#include "fem/elements/neo_hooke.h"
+#include "fem/laws/neo_hooke.h"
 #include "fem/scenes/reference_math.h"
 
 namespace bullet_fem
@@ -33,11 +33,8 @@ void passNonlinear(const ElementPass<Real>& pass, int b, int lane, const Strains
     const Mat3 e = 0.5 * (strains.m_elastic + transpose(strains.m_elastic));
     const Mat3 rate = 0.5 * (strains.m_viscous + transpose(strains.m_viscous));
     const double lambda = block.m_lambdaVolume[lane], mu = block.m_muVolume[lane];
-    NeoHookeResponse law;
-    if (pass.m_elements->m_law[b].m_lane[lane] > 0 && mu > 0)
-        law = neoHooke(e, lambda, mu);
-    else
-        law = {2 * mu * e + Mat3::diagonal(lambda * trace(e)), Mat3::identity(), lambda, 1, 0};
+    LawResponse law = {2 * mu * e + Mat3::diagonal(lambda * trace(e)), Mat3::identity(), lambda, 1, 0};
+    if (pass.m_elements->m_law[b].m_lane[lane] > 0 && mu > 0) law = neoHooke(e, lambda, mu);
     const double dilatation = trace(transposeTimes(law.m_cofactor, rate));
     const Mat3 viscous = law.m_bulk * dilatation * law.m_cofactor + 2 * mu * law.m_shear * rate;
     const Mat3 P = law.m_stress + pass.m_damping * viscous + initial;
@@ -49,9 +46,10 @@ void passNonlinear(const ElementPass<Real>& pass, int b, int lane, const Strains
     const Mat3 given = 0.5 * (initial + transpose(initial));
     const double factor = pass.m_tensionFactor / law.m_shear;
     storeTension(factor * (R * timesTranspose(positivePart(law.m_stress + given), R)), lane, warped);
-    const Mat3 C = std::sqrt(law.m_bulk / law.m_shear) * (R * timesTranspose(law.m_cofactor, R));
+    const Mat3 C = 1 / std::sqrt(law.m_shear) * (R * timesTranspose(law.m_cofactor, R));
     const double entries[6] = {C(0, 0), C(1, 1), C(2, 2), C(1, 2), C(0, 2), C(0, 1)};
-    for (int k = 0; k < 6; ++k) pass.m_cofactor[b].m_entry[k][lane] = static_cast<Real>(entries[k]);
+    for (int k = 0; k < 6; ++k) pass.m_tangent[b].m_cofactor[k][lane] = static_cast<Real>(entries[k]);
+    pass.m_tangent[b].m_bulk[lane] = static_cast<Real>(law.m_bulk);
 }
 
 template <class Real>
@@ -63,7 +61,7 @@ void passElement(const ElementPass<Real>& pass, int b, int lane, const Strains& 
     const Mat3 viscous = element.hooke(strains.m_viscous, rate), initial = initialStress(pass, b, lane);
     const Mat3 S = Mat3::identity() + 0.5 * (strains.m_elastic + transpose(strains.m_elastic));
     const Mat3 P = elastic + pass.m_damping * viscous + initial + torqueBalance(S, initial);
-    if (pass.m_cofactor) return passNonlinear(pass, b, lane, strains, initial + torqueBalance(S, initial));
+    if (pass.m_tangent) return passNonlinear(pass, b, lane, strains, initial + torqueBalance(S, initial));
     storeCorners(timesTranspose(-1.0 * (R * P), DmInverse), lane, pass.m_force[b]);
 
     WarpedBlock<Real>& warped = pass.m_warped[b];
@@ -99,14 +97,16 @@ void multiplyElement(const ElementProduct<Real>& product, int b, int lane, doubl
                      {t[4][lane], t[3][lane], t[2][lane]}}};
     const ReferenceElement<Real> element = {product.m_elements->m_blocks[b], lane};
     Mat3 P = product.m_stiffnessFactor * element.hooke(H, dilatation) + H * T;
-    if (product.m_cofactor)
+    if (product.m_tangent)
     {
-        const auto& c = product.m_cofactor[b].m_entry;
+        const auto& c = product.m_tangent[b].m_cofactor;
         const Mat3 C = {{{c[0][lane], c[5][lane], c[4][lane]},
                          {c[5][lane], c[1][lane], c[3][lane]},
                          {c[4][lane], c[3][lane], c[2][lane]}}};
         const double mu = element.m_block.m_muVolume[lane];
-        P = product.m_stiffnessFactor * (mu * (H + transpose(H)) + trace(transposeTimes(C, H)) * C) + H * T;
+        P = product.m_stiffnessFactor *
+                (mu * (H + transpose(H)) + product.m_tangent[b].m_bulk[lane] * trace(transposeTimes(C, H)) * C) +
+            H * T;
     }
     storeCorners(timesTranspose(P, g), lane, product.m_out[b]);
 }

@@ -205,7 +205,7 @@ TEST(OrthotropicBodies, BadConstantsAreRefusedAndNothingChanges)
     EXPECT_THAT(refusal([](btFemMaterial& m) { m.m_orthotropic.m_along = btVector3(0, 0, 0); }),
                 HasSubstr("axis 1 is (0, 0, 0)"));
     EXPECT_THAT(refusal([](btFemMaterial& m) { m.m_yieldStress = 100; }), HasSubstr("orthotropic law"));
-    EXPECT_THAT(refusal([](btFemMaterial& m) { m.m_law = static_cast<btFemElasticLaw>(3); }), HasSubstr("[0, 2]"));
+    EXPECT_THAT(refusal([](btFemMaterial& m) { m.m_law = static_cast<btFemElasticLaw>(50); }), HasSubstr("[0, "));
     world.fem().saveDefinition(&cube, after);
     EXPECT_TRUE(before == after);
 }

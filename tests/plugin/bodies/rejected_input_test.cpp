@@ -72,6 +72,34 @@ TEST(RejectedMaterial, LimitsAndPresetsAreAccepted)
         EXPECT_TRUE(preset.valid(&why)) << why;
 }
 
+TEST(RejectedMaterial, HardnessAndLossFactorNameValueAndRange)
+{
+    expectRejected([] { btFemMaterial::shoreA(5); }, {"hardness [Shore A] is 5, outside [10, 95]"});
+    expectRejected([] { btFemMaterial::shoreD(80); }, {"hardness [Shore D] is 80, outside [30, 70]"});
+    std::string why;
+    EXPECT_EQ(btFemMaterial::shoreA(kNotANumber, &why).m_youngModulus, btFemMaterial().m_youngModulus);
+    EXPECT_NE(why.find("nan"), std::string::npos);
+    btFemMaterial material;
+    expectRejected([&] { material.setLossFactor(3, 10); }, {"loss factor [-] is 3, outside [0, 2]"});
+    EXPECT_FALSE(material.setLossFactor(btScalar(.1), 0, &why));
+    EXPECT_NE(why.find("frequency of the loss factor [Hz] is 0"), std::string::npos) << why;
+    EXPECT_EQ(material.m_stiffnessDamping, btFemMaterial().m_stiffnessDamping);
+}
+
+TEST(ElastomerMaterial, HasHardnessAndLossFactor)
+{
+    const btFemMaterial rubber = btFemMaterial::shoreA(40);
+    EXPECT_NEAR(rubber.m_youngModulus / 1.689639e6, 1, 1e-5);
+    EXPECT_EQ(rubber.m_poissonRatio, btScalar(.499));
+    EXPECT_NEAR(rubber.lossFactor(10), .1, 1e-6);
+    EXPECT_TRUE(rubber.valid());
+    btFemMaterial foam = btFemMaterial::foam();
+    EXPECT_TRUE(foam.setLossFactor(btScalar(.2), 50));
+    EXPECT_NEAR(foam.lossFactor(50), .2, 1e-6);
+    EXPECT_NEAR(foam.lossFactor(100), .4, 1e-6);
+    EXPECT_GT(btFemMaterial::shoreD(50).m_youngModulus, rubber.m_youngModulus);
+}
+
 TEST(RejectedMaterial, NeoHookeanPresetsRefuseAccurateBendingWithTheRemedy)
 {
     for (btFemMaterial material : {btFemMaterial::jelly(), btFemMaterial::flesh()})

@@ -31,6 +31,7 @@ struct BodySnapshot
     std::vector<SymmetricTensor> m_plasticStrain;      ///< [-]
     std::vector<double> m_equivalentPlasticStrain;     ///< [-]
     std::vector<SymmetricTensor> m_relaxedStrain;      ///< [-]
+    std::vector<double> m_lawHistory;                  ///< history variables of the laws
     Actuators m_actuators;                             ///< chambers, cables, fibres
     double m_leastStep = 0;                            ///< minimum of the recent steps [s]
     double m_mostStep = 0;                             ///< maximum of the recent steps [s]
@@ -78,6 +79,7 @@ void transfer(Bytes& bytes, Material& m)
           m.m_accurateBending, m.m_yieldStress, m.m_hardeningModulus, m.m_plasticCreep, m.m_mostPlasticStrain, m.m_law);
     for (PronyTerm& term : m.m_relaxation) bytes(term.m_share, term.m_time);
     if (m.isOrthotropic()) bytes(m.m_orthotropic);
+    bytes(m.m_lawConstants);
 }
 
 /// Reads or writes a region: `bytes` is a ByteReader or ByteWriter.
@@ -100,8 +102,8 @@ void transfer(Bytes& bytes, BodySnapshot& s)
 {
     bytes(s.m_shapeMark, s.m_path, s.m_factor, s.m_complianceScale, s.m_x, s.m_v, s.m_mass, s.m_fixed,
           s.m_lastIncrement, s.m_elementRotation, s.m_bodyRotation, s.m_initialStress, s.m_initialStressChanges,
-          s.m_plasticStrain, s.m_equivalentPlasticStrain, s.m_relaxedStrain, s.m_actuators, s.m_leastStep,
-          s.m_mostStep);
+          s.m_plasticStrain, s.m_equivalentPlasticStrain, s.m_relaxedStrain, s.m_lawHistory, s.m_actuators,
+          s.m_leastStep, s.m_mostStep);
 }
 
 }  // namespace bullet_fem

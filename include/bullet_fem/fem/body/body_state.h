@@ -50,8 +50,9 @@ struct BULLETFEM_API BodyState
     /// alpha_i of every element's relaxation terms, element by element, in the frame that rotates with the element [-];
     /// empty without terms.
     std::vector<SymmetricTensor> m_relaxedStrain;
-    double m_leastStep = 0;  ///< minimum of the recent steps [s], >= 0; 0 before the first
-    double m_mostStep = 0;   ///< maximum of the recent steps [s], >= 0; 0 before the first
+    std::vector<double> m_lawHistory;  ///< history variables of the laws, element by element; empty without
+    double m_leastStep = 0;            ///< minimum of the recent steps [s], >= 0; 0 before the first
+    double m_mostStep = 0;             ///< maximum of the recent steps [s], >= 0; 0 before the first
 };
 
 /// The loads of a body during one step.

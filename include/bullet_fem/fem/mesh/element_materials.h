@@ -65,9 +65,11 @@ struct BULLETFEM_API ElementMaterials
     std::vector<int> patchGroups() const;
     /// True if any region uses mean dilatation.
     bool usesMeanDilatation() const;
-    /// True if any region has a nonlinear law; validate() refuses mean dilatation in the other regions then.
+    /// True if any region's law is evaluated in every step; validate() refuses orthotropic regions and accurate bending
+    /// beside it.
     bool isNonlinear() const;
-    /// True if any region is orthotropic; validate() refuses mean-dilatation and Neo-Hookean regions then.
+    /// True if any region is orthotropic; validate() refuses mean dilatation and laws that vary in the
+    /// other regions then.
     bool isOrthotropic() const;
     /// True if any region has accurate bending.
     bool bendsAccurately() const;
@@ -75,6 +77,8 @@ struct BULLETFEM_API ElementMaterials
     bool yields() const;
     /// Maximum number of relaxation terms over the regions.
     int relaxationTerms() const;
+    /// Maximum number of an element's history variables over the laws of the regions.
+    int historyCount() const;
 
     /// True if regions and region indices are equal.
     friend bool operator==(const ElementMaterials& a, const ElementMaterials& b)

@@ -7,7 +7,8 @@
 #include <string>
 
 #include "bullet_fem/fem/common/export.h"
-#include "bullet_fem/fem/mesh/orthotropic.h"
+#include "bullet_fem/fem/laws/elastic_law.h"
+#include "bullet_fem/fem/laws/orthotropic.h"
 
 namespace bullet_fem
 {
@@ -19,14 +20,6 @@ enum class MeanDilatation
     automatic,  ///< on for nu above Material::kMinAveragedRatio, and for accurate bending
     on,
     off
-};
-
-/// The constitutive law (docs/materials.md, Large strain).
-enum class ElasticLaw
-{
-    hooke,       ///< linear in the strain of the rotated frame
-    neoHooke,    ///< equals hooke at small strain; stiffens in tension, and without bound in compression
-    orthotropic  ///< linear, with the constants and axes of Material::m_orthotropic instead of E and nu
 };
 
 /// A term g_i exp(-t / tau_i) of the Prony series of the shear modulus.
@@ -52,7 +45,7 @@ struct BULLETFEM_API Material
     [[deprecated("kMaxRelaxationTerms")]] static constexpr int kMostRelaxationTerms = kMaxRelaxationTerms;
     static constexpr double kMaxRelaxedShare = 0.99;  ///< maximum sum of g_i; the rest carries slow loads
     [[deprecated("kMaxRelaxedShare")]] static constexpr double kMostRelaxedShare = kMaxRelaxedShare;
-    static constexpr double kMaxPoissonRatio = 0.499;  ///< maximum nu; lambda / mu is 499 there, infinite at .5
+    static constexpr double kMaxPoissonRatio = bullet_fem::kMaxPoissonRatio;  ///< maximum nu [-]
     [[deprecated("kMaxPoissonRatio")]] static constexpr double kMostPoissonRatio = kMaxPoissonRatio;
     static constexpr double kMinAveragedRatio = 0.4;  ///< MeanDilatation::automatic is on for larger nu
     [[deprecated("kMinAveragedRatio")]] static constexpr double kLeastAveragedRatio = kMinAveragedRatio;
@@ -79,13 +72,15 @@ struct BULLETFEM_API Material
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
     /// Averages shear strains around edges, so that bending does not lock (EdgeDomains). Not available with mean
-    /// dilatation off, nor for materials that yield or relax.
+    /// dilatation off, and for the law hooke alone.
     bool m_accurateBending = false;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;
     /// The constants for ElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
     /// or use accurate bending, and its elements each have their own volume change.
     Orthotropic m_orthotropic = {};
+    /// Constants of laws with constants of their own, in the order of docs/materials.md; 0 for the others.
+    std::array<double, kMaxLawConstants> m_lawConstants = {};
 
     /// First Lame constant lambda = E nu / ((1 + nu)(1 - 2 nu)) [Pa]; for an orthotropic material that of
     /// Orthotropic::isotropicPart().
@@ -131,7 +126,7 @@ struct BULLETFEM_API Material
                a.m_accurateBending == b.m_accurateBending && a.m_yieldStress == b.m_yieldStress &&
                a.m_hardeningModulus == b.m_hardeningModulus && a.m_plasticCreep == b.m_plasticCreep &&
                a.m_mostPlasticStrain == b.m_mostPlasticStrain && a.m_relaxation == b.m_relaxation &&
-               (!a.isOrthotropic() || a.m_orthotropic == b.m_orthotropic);
+               a.m_lawConstants == b.m_lawConstants && (!a.isOrthotropic() || a.m_orthotropic == b.m_orthotropic);
     }
     /// True if any value that the law reads differs.
     friend bool operator!=(const Material& a, const Material& b) { return !(a == b); }

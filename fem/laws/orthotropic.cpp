@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
-#include "bullet_fem/fem/mesh/orthotropic.h"
+#include "bullet_fem/fem/laws/orthotropic.h"
 
 #include <cmath>
 
 #include "fem/common/message.h"
+#include "fem/laws/orthotropic_law.h"
 
 namespace bullet_fem
 {
@@ -219,6 +220,24 @@ LameModuli Orthotropic::isotropicPart() const
         (isPositiveDefinite(rest) ? low : high) = t;
     }
     return {low * mean.m_mu, low * mean.m_lambda};
+}
+
+Law orthotropicLaw()
+{
+    Law law = {};
+    law.m_name = "orthotropic";
+    law.m_title = "orthotropic law";
+    law.m_kind = LawKind::anisotropic;
+    law.m_noPatches = "has no pressure of its own";
+    law.m_respond = [](const Mat3& e, const LawPoint& point)
+    {
+        const SymmetricTensor strain = symmetricPart(e), stress = stressOf(*point.m_stiffness, strain);
+        LawResponse result;
+        result.m_stress = toMatrix(stress);
+        result.m_energy = 0.5 * contraction(stress, strain);
+        return result;
+    };
+    return law;
 }
 
 }  // namespace bullet_fem

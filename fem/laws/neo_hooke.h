@@ -2,7 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "bullet_fem/fem/common/vec3.h"
+#include "fem/laws/law.h"
+#include "fem/laws/volume_ratio.h"
 
 namespace bullet_fem
 {
@@ -12,8 +13,7 @@ namespace bullet_fem
 ///     W = mu/2 (I - 3) + g(J),   g = lambda/4 (J^2 - 1) - (lambda/2 + mu) ln J
 ///
 /// which equals Hooke's law of equal E and nu at small strain. Below J0 = kMinVolumeRatio g continues as the
-/// parabola with equal value, slope and curvature at J0, so that it is defined for flat and inverted elements, too, and
-/// drives them back: stress and tangent are continuous, and flattening an element takes about 10 E.
+/// parabola with equal value, slope and curvature at J0: flattening an element takes about 10 E.
 ///
 /// With F = R S, B = R S R^T = I + e and C = adj(B), the stress R dW/dF^T R^T and the approximation of its derivative
 /// in A are
@@ -25,19 +25,10 @@ namespace bullet_fem
 /// with D bilinear in B and H. k = max(1, (mu + |g'| s) / (2 mu)), with s = 1 + tr(e) / 3 + sqrt(2/3) |dev(e)| >= every
 /// stretch, and l = max(0, g'' - 3 mu i^2 / |C|^2), with i = (tr(C)^2 / |C|^2 - 1) / 2, which is 1 if all stretches are
 /// equal, bound the contribution of D, and equal 1 and lambda at rest. T is the tension of an ElementPass.
-constexpr double kMinVolumeRatio = 0.1;
+/// In a patch of mean dilatation lambda is 0, and the patch's pressure p is added to q and g'.
+LawResponse neoHooke(const Mat3& e, double lambda, double mu, double pressure = 0);
 
-/// Response of the law in one element, in the units of lambda and mu.
-struct NeoHookeResponse
-{
-    Mat3 m_stress;        ///< tau
-    Mat3 m_cofactor;      ///< C
-    double m_bulk = 0;    ///< l
-    double m_shear = 1;   ///< k [-]
-    double m_energy = 0;  ///< W
-};
-
-/// Evaluates the law for a symmetric e.
-NeoHookeResponse neoHooke(const Mat3& e, double lambda, double mu);
+/// The traits of the law.
+Law neoHookeLaw();
 
 }  // namespace bullet_fem
