@@ -40,7 +40,7 @@ double SoftBodyContacts::normOfImpulses() const
 }
 
 // Two surfaces separated by a gap share one point of action: the moment by the gap's lever is applied as a spin. An
-// equal correction applies to groups of nodes, whose impulse acts at their positions at the beginning of the step.
+// equal correction applies to groups of nodes whose impulse acts at their positions at the beginning of the step.
 void SoftBodyContacts::addLevers(const StepSettings& settings)
 {
     RigidMomentum& momentum = m_body.m_body->m_workspace.scratch().m_momentum;
@@ -51,7 +51,7 @@ void SoftBodyContacts::addLevers(const StepSettings& settings)
         if (!isGroup(end))
             momentum.addAngularImpulse(*m_body.m_body, end.m_point.m_nodes[0], cross(end.m_offset, added),
                                        settings.m_step);
-        else if (m_theta < 1)
+        else if (end.m_actsAtStart && m_theta < 1)
             momentum.addAngularImpulse(*m_body.m_body, end.m_nodes[0], groupLever(end, added), settings.m_step);
     }
 }
@@ -118,7 +118,7 @@ void SoftBodyContacts::endCorrection()
 }
 
 // Both sides share the point of action of an impulse, so that momenta are conserved: for points that of the contact,
-// for groups the position at the beginning of the step.
+// for groups the nodes' own (addGroup).
 void SoftBodyContacts::noteReactions()
 {
     StepScratch& scratch = m_body.m_body->m_workspace.scratch();
@@ -138,11 +138,12 @@ void SoftBodyContacts::noteReactions()
             reactions.addOutside(componentOf[end.m_point.m_nodes[0]], impulse, cross(at, impulse));
             continue;
         }
+        const std::vector<Vec3>& at = end.m_actsAtStart ? m_body.m_body->m_state.m_x : scratch.m_kickPosition;
         for (int i = 0; i < end.m_count; ++i)
         {
             const Vec3 part = transposeTimes(end.m_blocks[i], impulse);
             const int node = end.m_nodes[i];
-            reactions.addOutside(componentOf[node], part, cross(m_body.m_body->m_state.m_x[node], part));
+            reactions.addOutside(componentOf[node], part, cross(at[node], part));
         }
     }
     reactions.add(m_nodeIn);

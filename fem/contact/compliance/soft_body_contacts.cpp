@@ -54,12 +54,13 @@ void SoftBodyContacts::setPoint(int e, const SurfacePoint& point, const Vec3& at
     m_ends[e].m_offset = at - read(m_ends[e], m_body.m_body->m_workspace.scratch().m_kickPosition);
 }
 
-int SoftBodyContacts::addGroup(const int* nodes, const Mat3* blocks, int count)
+int SoftBodyContacts::addGroup(const int* nodes, const Mat3* blocks, int count, bool actsAtStart)
 {
     End end;
     end.m_nodes = nodes;
     end.m_blocks = blocks;
     end.m_count = count;
+    end.m_actsAtStart = actsAtStart;
     m_ends.push_back(end);
     return size() - 1;
 }

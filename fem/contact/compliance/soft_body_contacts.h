@@ -48,8 +48,8 @@ public:
     void setPoint(int e, const SurfacePoint& point, const Vec3& at);
 
     /// Adds a group of nodes, behind all points; returns its index. Its nodes and blocks must live until the step is
-    /// over.
-    int addGroup(const int* nodes, const Mat3* blocks, int count);
+    /// over. Its impulse acts at the nodes' positions y, or at those at the beginning of the step.
+    int addGroup(const int* nodes, const Mat3* blocks, int count, bool actsAtStart);
 
     /// Call when all sides are added: prepares request() and form(), which must follow, for a step [s]. The compliance
     /// is dense for at most denseLimit sides, and always between those of joints.
@@ -156,7 +156,8 @@ private:
         const int* m_nodes = nullptr;  // nodes of a group
         const Mat3* m_blocks = nullptr;
         int m_count = 0;
-        Vec3 m_offset;  // from the nodes' point of action to the impulse's [m]
+        bool m_actsAtStart = false;  // of groups: see addGroup()
+        Vec3 m_offset;               // from the nodes' point of action to the impulse's [m]
     };
 
     // Statistics of a correction for W: the work of its impulses on the resulting velocities, and their sum [N s].

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/body/step_scratch.h"
 #include "fem/contact/constraints/contact_rows.h"
 #include "fem/contact/constraints/rigid_response.h"
 
@@ -178,8 +179,8 @@ void ContactRows::addJointRow(const Joint& joint, const int* points)
 {
     ContactRow row;
     row.m_joint = true;
-    row.m_a = jointEnd(joint.m_a, points[0]);
-    row.m_b = jointEnd(joint.m_b, points[1]);
+    row.m_a = jointEnd(joint.m_a, actsAtStart(joint.m_a, joint.m_b), points[0]);
+    row.m_b = jointEnd(joint.m_b, actsAtStart(joint.m_b, joint.m_a), points[1]);
     for (int i = 0; i < 3; ++i) row.m_axes[i] = joint.m_axes[i];
     row.m_target = joint.m_wanted;
     row.m_limit = joint.m_limit;
@@ -202,7 +203,17 @@ ConstraintSide ContactRows::softEnd(const SurfacePoint& point, const Vec3& at, i
     return row;
 }
 
-ConstraintSide ContactRows::jointEnd(const JointEnd& joint, int number)
+// An impulse does no work in a joint that acts at the positions y, which the velocities refer to. Two soft bodies of
+// one theta have these in common. Movable proxies, and soft bodies of another theta, measure levers elsewhere; only
+// their position at the beginning of the step is common to both, so that momentum requires it.
+bool ContactRows::actsAtStart(const JointEnd& end, const JointEnd& other) const
+{
+    if (end.m_body < 0) return false;
+    if (other.m_body >= 0) return m_bodies[other.m_body].theta() != m_bodies[end.m_body].theta();
+    return other.m_rigidProxy >= 0 && m_problem->m_rigidProxies[other.m_rigidProxy].canMove();
+}
+
+ConstraintSide ContactRows::jointEnd(const JointEnd& joint, bool actsAtStart, int number)
 {
     if (joint.m_body < 0)
     {
@@ -221,12 +232,15 @@ ConstraintSide ContactRows::jointEnd(const JointEnd& joint, int number)
             point.m_nodes[k] = m_problem->m_handleNodes[joint.m_first + k];
             point.m_weights[k] = m_problem->m_handleBlocks[joint.m_first + k](0, 0);
         }
-        return softEnd(point, point.of(m_problem->m_bodies[joint.m_body].m_body->m_state.m_x), number);
+        const Body& body = *m_problem->m_bodies[joint.m_body].m_body;
+        const std::vector<Vec3>& x = actsAtStart ? body.m_state.m_x : body.m_workspace.scratch().m_kickPosition;
+        return softEnd(point, point.of(x), number);
     }
     ConstraintSide end;
     end.m_body = joint.m_body;
-    end.m_end = m_bodies[joint.m_body].addGroup(m_problem->m_handleNodes.data() + joint.m_first,
-                                                m_problem->m_handleBlocks.data() + joint.m_first, joint.m_count);
+    end.m_end =
+        m_bodies[joint.m_body].addGroup(m_problem->m_handleNodes.data() + joint.m_first,
+                                        m_problem->m_handleBlocks.data() + joint.m_first, joint.m_count, actsAtStart);
     return end;
 }
 

@@ -210,7 +210,8 @@ private:
     ConstraintSide softEnd(const SurfacePoint& point, const Vec3& at, int end);
     bool isPoint(const JointEnd& end) const;
     void numberJointPoints();
-    ConstraintSide jointEnd(const JointEnd& end, int point);
+    bool actsAtStart(const JointEnd& end, const JointEnd& other) const;
+    ConstraintSide jointEnd(const JointEnd& end, bool actsAtStart, int point);
     ConstraintSide rigidEnd(int rigidProxy, const Vec3& point) const;
     void pushStarts(bool expected);
     void finishRows();

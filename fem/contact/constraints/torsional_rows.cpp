@@ -15,9 +15,9 @@ void ContactRows::addTorsionRow(const TorsionalFriction& torsion)
     row.m_torsion = true;
     row.m_a.m_body = torsion.m_body;
     if (torsion.m_body >= 0)
-        row.m_a.m_end =
-            m_bodies[torsion.m_body].addGroup(m_problem->m_handleNodes.data() + torsion.m_first,
-                                              m_problem->m_handleBlocks.data() + torsion.m_first, torsion.m_count);
+        row.m_a.m_end = m_bodies[torsion.m_body].addGroup(m_problem->m_handleNodes.data() + torsion.m_first,
+                                                          m_problem->m_handleBlocks.data() + torsion.m_first,
+                                                          torsion.m_count, true);
     row.m_a.m_rigidProxy = torsion.m_body >= 0 ? -1 : torsion.m_firstRigidProxy;
     row.m_a.m_angular = torsion.m_body < 0;
     row.m_b.m_rigidProxy = torsion.m_rigidProxy;
