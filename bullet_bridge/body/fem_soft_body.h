@@ -81,8 +81,10 @@ struct Impact
     int m_component = 0;         ///< connected component of the body (TetMesh::nodeComponent)
     int m_otherComponent = -1;   ///< connected component of a soft other body; -1: rigid
     double m_restitution = 0;    ///< [-], in [0, 1]
+    double m_push = 0;           ///< normal impulse of the step that m_restitution was found in [N s]
     double m_approach = 0;       ///< approach speed at the first contact [m/s]
     double m_energy = 0;         ///< energy of both at the first contact [J]
+    double m_loss = 0;           ///< kinetic energy that the normal impulses have taken from the rigid motions [J]
     double m_speed = 0;          ///< separation speed at the end of the last step [m/s]
     double m_gain = 0;           ///< largest increase of m_speed in a step [m/s]
     Vec3 m_point, m_normal;      ///< point of last contact [m]; unit normal from the other to the body
@@ -94,6 +96,8 @@ struct Impact
     bool m_otherIsHeld = false;  ///< an immovable object supports the other
     bool m_isNear = false;       ///< the two have contact points in this step
     bool m_isPressed = false;    ///< some of these have an impulse
+    double m_impulse = 0;        ///< if pressed, the normal impulse of this step [N s]
+    double m_speedBefore = 0;    ///< if pressed, the separation speed before this step [m/s]
 
     /// True if the two are between equal bodies and connected components.
     bool isOf(const Impact& b) const

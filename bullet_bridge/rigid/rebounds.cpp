@@ -6,9 +6,9 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_bridge/geometry/limits.h"
+#include "bullet_bridge/rigid/impact_energy.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/contact/rebound.h"
-#include "bullet_fem/fem/step/stepping.h"
 
 namespace bullet_fem
 {
@@ -27,6 +27,9 @@ constexpr double kStopped = 0.05;
 // time [-].
 constexpr double kPatience = 2;
 
+// The restitution by elasticity is found anew when the patch is pressed harder by this factor [-].
+constexpr double kHarder = 1.2;
+
 // Smallest cosine between a support's normal and the direction that it holds against: 60 degrees [-].
 constexpr double kHolds = 0.5;
 
@@ -36,44 +39,20 @@ constexpr double kTouching = 2e-3;
 // Indices of the two sides in the problem.
 constexpr int kOther = 0, kBody = 1;
 
-// A frame that moves with a velocity [m/s] for a time [s]. In it, a moving support does no work.
-struct Frame
+// The speed at which a rolling body approaches the other where the patch will be next: the patch advances by the
+// relative motion of the centres in a step, and to the next facet [m/s].
+double rollingSpeed(const RigidProxy& a, const RigidProxy& b, const Vec3& normal, double step, double facet)
 {
-    Vec3 m_velocity;
-    double m_time;
-};
-
-// Elastic, kinetic and gravitational energy in a frame [J].
-double energyOf(const FemSoftBody& fem, const Frame& frame)
-{
-    const BodyState& s = fem.m_body.m_state;
-    Vec3 momentum, moment;
-    for (std::size_t i = 0; i < s.m_x.size(); ++i)
-    {
-        momentum += s.m_mass[i] * s.m_v[i];
-        moment += s.m_mass[i] * (s.m_x[i] - frame.m_time * frame.m_velocity);
-    }
-    return mechanicalEnergy(fem.m_body) - dot(momentum, frame.m_velocity) - dot(moment, fem.gravity());
+    const Vec3 relative = a.m_linearVelocity - b.m_linearVelocity;
+    const double advance = step * norm(relative - dot(relative, normal) * normal);
+    return (advance + facet) * norm(a.m_angularVelocity - b.m_angularVelocity);
 }
 
-// Kinetic and gravitational energy of a rigid body [J]. Links of multibodies are not counted: energy that goes into
-// them counts as lost.
-double energyOf(const btRigidBody& body)
+RigidProxy immovable(const Vec3& velocity)
 {
-    const Vec3 v = vec3(body.getLinearVelocity());
-    const btVector3 spin = body.getAngularVelocity() * body.getWorldTransform().getBasis();
-    double turning = 0;
-    for (int i = 0; i < 3; ++i)
-        if (body.getInvInertiaDiagLocal()[i] > 0)
-            turning += double(spin[i]) * spin[i] / body.getInvInertiaDiagLocal()[i];
-    return (0.5 * dot(v, v) - dot(vec3(body.getGravity()), vec3(body.getCenterOfMassPosition()))) / body.getInvMass() +
-           0.5 * turning;
-}
-
-double energyOf(const btCollisionObject& object)
-{
-    const btRigidBody* body = btRigidBody::upcast(&object);
-    return body && !body->isStaticOrKinematicObject() && body->getInvMass() > 0 ? energyOf(*body) : 0;
+    RigidProxy proxy;
+    proxy.m_linearVelocity = velocity;
+    return proxy;
 }
 
 void setMotion(const LinkMotion& motion, RigidProxy& proxy)
@@ -82,74 +61,19 @@ void setMotion(const LinkMotion& motion, RigidProxy& proxy)
     proxy.m_angularVelocity = motion.m_angular;
 }
 
-RigidProxy proxyBefore(const RigidProxies& rigid, int index)
-{
-    RigidProxy proxy = rigid.rigidProxies()[index];
-    // The rigid proxy with the object's velocity as the step begins; a rigid body's forces are not in it yet.
-    const btRigidBody* body = movableBody(rigid.object(index));
-    if (body)
-        setMotion({vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())}, proxy);
-    else
-        setMotion(rigid.motionNow(index), proxy);
-    return proxy;
-}
-
-int componentOf(const FemSoftBody& fem, const SurfacePoint& point)
-{
-    return fem.m_body.m_model->mesh().nodeComponent()[point.m_nodes[0]];
-}
-
 }  // namespace
 
-// Collects contact patches by pair of bodies. Between two soft bodies, the one of smaller broadphase id keeps the
-// impact.
-void Rebounds::gather(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies)
-{
-    m_patches.clear();
-    for (const ContactPoint& c : problem.m_contacts)
-    {
-        if (!(c.m_restitution > 0) || c.m_soft.m_body == c.m_other.m_body) continue;
-        Patch patch;
-        patch.m_body = c.m_soft.m_body;
-        patch.m_component = componentOf(*bodies[patch.m_body], c.m_soft);
-        patch.m_rigidProxy = c.m_rigidProxy;
-        Vec3 normal = c.m_normal;
-        if (c.m_other.m_body >= 0)
-        {
-            patch.m_otherBody = c.m_other.m_body;
-            patch.m_otherComponent = componentOf(*bodies[patch.m_otherBody], c.m_other);
-            if (broadphaseId(*bodies[patch.m_otherBody]->m_softBody) < broadphaseId(*bodies[patch.m_body]->m_softBody))
-            {
-                std::swap(patch.m_body, patch.m_otherBody);
-                std::swap(patch.m_component, patch.m_otherComponent);
-                normal = -normal;
-            }
-        }
-        auto found = std::find_if(m_patches.rbegin(), m_patches.rend(), [&](const Patch& p) { return p.isOf(patch); });
-        if (found == m_patches.rend())
-        {
-            m_patches.push_back(patch);
-            found = m_patches.rbegin();
-        }
-        const double push = dot(c.m_impulse, c.m_normal);
-        found->m_restitution = std::max(found->m_restitution, c.m_restitution);
-        if (!(push > 0)) continue;
-        found->m_push += push;
-        found->m_point += push * (c.m_point + c.m_approach);
-        found->m_normal += push * normal;
-    }
-}
-
 void Rebounds::note(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies, const RigidProxies& rigid,
-                    double least)
+                    double step, double least)
 {
     for (FemSoftBody* fem : bodies)
         for (Impact& impact : fem->m_memory.m_impacts) impact.m_isNear = impact.m_isPressed = false;
-    gather(problem, bodies);
-    for (const Patch& patch : m_patches) notePatch({problem, bodies, rigid}, patch, least);
+    const ImpactScene scene = {problem, bodies, rigid, step};
+    m_patches.gather(scene, least);
+    for (const ImpactPatch& patch : m_patches.patches()) notePatch(scene, patch, least);
 }
 
-void Rebounds::notePatch(const Scene& scene, const Patch& patch, double least)
+void Rebounds::notePatch(const ImpactScene& scene, const ImpactPatch& patch, double least)
 {
     const btCollisionObject* other = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody]->m_softBody
                                                             : &scene.m_rigid.object(patch.m_rigidProxy);
@@ -166,62 +90,88 @@ void Rebounds::notePatch(const Scene& scene, const Patch& patch, double least)
     {
         now.m_point = (1 / patch.m_push) * patch.m_point;
         now.m_normal = (1 / size) * patch.m_normal;
+        now.m_impulse = size;
     }
-    const auto known = std::find_if(impacts.begin(), impacts.end(), [&](const Impact& i) { return i.isOf(now); });
-    if (known == impacts.end())
+    const auto known = std::find_if(impacts.rbegin(), impacts.rend(), [&](const Impact& i) { return i.isOf(now); });
+    const bool isKnown = known != impacts.rend();
+    if (isKnown) known->m_isNear = true;
+    // Other parts of two bodies that part may meet, as the ends of a brick do: the first impact is over then.
+    if (now.m_isPressed && (!isKnown || known->m_speed >= 0) && meet(scene, patch, least, now))
     {
-        if (now.m_isPressed && meet(scene, patch, least, now)) impacts.push_back(now);
+        findRestitution(scene, patch, now);
+        impacts.push_back(now);
         return;
     }
-    known->m_isNear = true;
+    if (!isKnown) return;
     known->m_isPressed = now.m_isPressed;
     if (!now.m_isPressed) return;
     known->m_point = now.m_point;
     known->m_normal = now.m_normal;
+    known->m_impulse = now.m_impulse;
+    Sides sides = sidesOf(scene, patch);
+    if (known->m_isHeld) sides.m_first = immovable(known->m_frame);
+    if (known->m_otherIsHeld) sides.m_second = immovable(known->m_frame);
+    known->m_speedBefore = -sides.approachAt(*known);
+    if (known->m_stopTime == 0) findRestitution(scene, patch, *known);
+}
+
+// Finds the restitution by elasticity where none is set, anew when the patch is pressed harder.
+void Rebounds::findRestitution(const ImpactScene& scene, const ImpactPatch& patch, Impact& impact)
+{
+    if (patch.m_restitution > 0 || !m_patches.isElastic() || !(patch.m_push > kHarder * impact.m_push)) return;
+    impact.m_push = patch.m_push;
+    impact.m_restitution = m_patches.elasticRestitutionOf(scene, patch, impact);
+}
+
+Rebounds::Sides Rebounds::sidesOf(const ImpactScene& scene, const ImpactPatch& patch)
+{
+    return {wholeMotion(scene.m_bodies[patch.m_body]->m_body, patch.m_component),
+            patch.m_otherBody >= 0 ? wholeMotion(scene.m_bodies[patch.m_otherBody]->m_body, patch.m_otherComponent)
+                                   : scene.before(patch.m_rigidProxy)};
 }
 
 // Starts an impact. False if the approach is too slow for a rebound.
-bool Rebounds::meet(const Scene& scene, const Patch& patch, double least, Impact& impact)
+bool Rebounds::meet(const ImpactScene& scene, const ImpactPatch& patch, double least, Impact& impact)
 {
     const FemSoftBody& fem = *scene.m_bodies[patch.m_body];
     const FemSoftBody* soft = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody] : nullptr;
     const Vec3& n = impact.m_normal;
-    RigidProxy first = wholeMotion(fem.m_body, patch.m_component);
-    RigidProxy second =
-        soft ? wholeMotion(soft->m_body, patch.m_otherComponent) : proxyBefore(scene.m_rigid, patch.m_rigidProxy);
-    if (!(dot(n, second.velocityAt(impact.m_point) - first.velocityAt(impact.m_point)) > least)) return false;
+    Sides sides = sidesOf(scene, patch);
+    const double facet = fem.m_body.m_model->mesh().meanEdgeLength();
+    const double slowest = least + rollingSpeed(sides.m_first, sides.m_second, n, scene.m_step, facet);
+    if (!(sides.approachAt(impact) > slowest)) return false;
     const RigidProxy* firstSupport = supportOf(scene, patch.m_body, patch.m_component, -n);
     const RigidProxy* secondSupport =
         soft ? supportOf(scene, patch.m_otherBody, patch.m_otherComponent, n) : supportOf(scene, patch.m_rigidProxy, n);
     impact.m_isHeld = firstSupport != nullptr;
     impact.m_otherIsHeld = secondSupport != nullptr;
-    if (firstSupport) first = *firstSupport;
-    if (secondSupport) second = *secondSupport;
-    impact.m_approach = dot(n, second.velocityAt(impact.m_point) - first.velocityAt(impact.m_point));
-    if (!(impact.m_approach > least)) return false;
+    if (firstSupport) sides.m_first = *firstSupport;
+    if (secondSupport) sides.m_second = *secondSupport;
+    impact.m_approach = sides.approachAt(impact);
+    if (!(impact.m_approach > slowest)) return false;
     impact.m_restitution = patch.m_restitution;
-    impact.m_speed = -impact.m_approach;
-    if (!first.canMove()) impact.m_frame = first.velocityAt(impact.m_point);
-    if (!second.canMove()) impact.m_frame = second.velocityAt(impact.m_point);
-    const Frame frame = {impact.m_frame, 0};
-    impact.m_energy = energyOf(fem, frame) + (soft ? energyOf(*soft, frame) : energyOf(*impact.m_other));
+    impact.m_speed = impact.m_speedBefore = -impact.m_approach;
+    if (!sides.m_first.canMove()) impact.m_frame = sides.m_first.velocityAt(impact.m_point);
+    if (!sides.m_second.canMove()) impact.m_frame = sides.m_second.velocityAt(impact.m_point);
+    const MovingFrame frame = {impact.m_frame, 0};
+    impact.m_energy = energyIn(frame, fem) + (soft ? energyIn(frame, *soft) : energyOf(*impact.m_other));
     return true;
 }
 
 // The immovable proxy that supports a component of a body against a direction; null if there is none.
-const RigidProxy* Rebounds::supportOf(const Scene& scene, int body, int component, const Vec3& against)
+const RigidProxy* Rebounds::supportOf(const ImpactScene& scene, int body, int component, const Vec3& against)
 {
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         if (c.m_soft.m_body != body || c.m_rigidProxy < 0) continue;
         const RigidProxy& proxy = scene.m_problem.m_rigidProxies[c.m_rigidProxy];
         if (proxy.canMove() || !(dot(c.m_impulse, c.m_normal) > 0) || !(dot(c.m_normal, against) > kHolds)) continue;
-        if (componentOf(*scene.m_bodies[body], c.m_soft) == component) return &proxy;
+        if (scene.componentOf(c.m_soft) == component) return &proxy;
     }
     return nullptr;
 }
 
-const RigidProxy* Rebounds::supportOf(const Scene& scene, int rigidProxy, const Vec3& against)
+const RigidProxy* Rebounds::supportOf(const ImpactScene& scene, int rigidProxy, const Vec3& against)
 {
     static const RigidProxy atRest;
     for (const RigidContact& touch : scene.m_problem.m_rigidContacts)
@@ -287,9 +237,22 @@ void Rebounds::setPair(const FemSoftBody& fem, const Impact& impact, const Other
     for (const int k : {kOther, kBody})
     {
         if (!(k == kBody ? impact.m_isHeld : impact.m_otherIsHeld)) continue;
-        proxies[k] = RigidProxy();
-        proxies[k].m_linearVelocity = impact.m_frame;
+        proxies[k] = immovable(impact.m_frame);
     }
+}
+
+// The velocity of the patch: it goes with the centre of what can move, of two such bodies between both.
+Vec3 Rebounds::patchVelocity() const
+{
+    Vec3 sum;
+    int count = 0;
+    for (const RigidProxy& proxy : m_problem.m_rigidProxies)
+    {
+        if (!proxy.canMove()) continue;
+        sum += proxy.m_linearVelocity;
+        ++count;
+    }
+    return count > 0 ? (1.0 / count) * sum : sum;
 }
 
 // Follows an impact; true if it is over. After the body has been stopped, energy that is still in its elasticity may
@@ -300,9 +263,11 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
     const Vec3 parting = m_problem.m_rigidProxies[kBody].velocityAt(impact.m_point) -
                          m_problem.m_rigidProxies[kOther].velocityAt(impact.m_point);
     const double speed = dot(impact.m_normal, parting), gain = speed - impact.m_speed;
+    if (impact.m_isPressed) impact.m_loss -= 0.5 * impact.m_impulse * (impact.m_speedBefore + speed);
     impact.m_gain = std::max(impact.m_gain, gain);
     impact.m_speed = speed;
     impact.m_time += step;
+    impact.m_point += step * patchVelocity();
     const bool isDriven = impact.m_isPressed && !(gain < kSpent * impact.m_gain);
     if (isDriven || !(speed > -kStopped * impact.m_approach)) return !impact.m_isNear;
     if (impact.m_stopTime == 0) impact.m_stopTime = impact.m_time;
@@ -320,9 +285,17 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     rebound.m_normal = impact.m_normal;
     rebound.m_speed = impact.m_restitution * impact.m_approach;
     if (!(rebound.m_speed > impact.m_speed)) return true;
-    const Frame frame = {impact.m_frame, impact.m_time};
-    rebound.m_energy = impact.m_energy - energyOf(fem, frame) -
-                       (other.m_soft ? energyOf(*other.m_soft, frame) : energyOf(*other.m_rigid));
+    const MovingFrame frame = {impact.m_frame, impact.m_time};
+    // Vibrations of bodies that no longer press each other do not become rigid motion.
+    const auto energyLeft = [&](const FemSoftBody& body, int k)
+    {
+        return impact.m_isPressed || !m_problem.m_rigidProxies[k].canMove()
+                   ? energyIn(frame, body)
+                   : rigidEnergyIn(frame, body, m_problem.m_rigidProxies[k]);
+    };
+    rebound.m_energy = impact.m_energy - energyLeft(fem, kBody) -
+                       (other.m_soft ? energyLeft(*other.m_soft, kOther) : energyOf(*other.m_rigid));
+    rebound.m_energy = std::min(rebound.m_energy, impact.m_loss);
     const RigidProxy before[] = {m_problem.m_rigidProxies[kOther], m_problem.m_rigidProxies[kBody]};
     const Vec3 impulse = giveRebound(m_problem, rebound);
     if (dot(impulse, impulse) == 0) return false;

@@ -224,7 +224,7 @@ void btFemContactGroup::solve()
 {
     const btFemStopwatch watch;
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
-    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
+    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
     moveRigid();
     m_milliseconds += watch.milliseconds();
     report(solved);
@@ -248,7 +248,7 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet)
     m_bulletRows.append(bullet, m_solverBodies.proxyOf(), m_problem);
     m_solverBodies.read(m_problem.m_rigidProxies);
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
-    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
+    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
     m_bulletRows.takeBack(bullet, m_problem);
     m_solverBodies.write(m_problem.m_rigidProxies);
     m_solverBodies.end(m_rigid);
@@ -287,7 +287,7 @@ void btFemContactGroup::finish()
 {
     ContactReport solved;
     onSolverBodies([&] { solved = m_solver.finish(); });
-    m_rebounds.note(m_problem, m_bodies, m_rigid, kRestitutionVelocity);
+    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
     m_solverBodies.end(m_rigid);
     report(solved);
 }

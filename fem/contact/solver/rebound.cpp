@@ -53,6 +53,14 @@ void addWholeMotion(Body& body, int component, const Vec3& center, const Vec3& l
         if (componentOf[i] == component && !s.m_fixed[i]) s.m_v[i] += linear + cross(angular, s.m_x[i] - center);
 }
 
+double rigidMobility(const ContactProblem& problem, int rigidProxy, const Vec3& point, const Vec3& direction)
+{
+    ConstraintSide end;
+    end.m_rigidProxy = rigidProxy;
+    end.m_arm = point - problem.m_rigidProxies[rigidProxy].m_center;
+    return dot(direction, rigidCompliance(problem, end, end) * direction);
+}
+
 Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
 {
     std::vector<RigidProxy>& proxies = problem.m_rigidProxies;
@@ -60,10 +68,7 @@ Vec3 giveRebound(ContactProblem& problem, const Rebound& rebound)
     double compliance = 0, speed = 0;
     for (const int k : {rebound.m_first, rebound.m_second})
     {
-        ConstraintSide end;
-        end.m_rigidProxy = k;
-        end.m_arm = rebound.m_point - proxies[k].m_center;
-        compliance += dot(n, rigidCompliance(problem, end, end) * n);
+        compliance += rigidMobility(problem, k, rebound.m_point, n);
         speed += (k == rebound.m_first ? 1 : -1) * dot(n, proxies[k].velocityAt(rebound.m_point));
     }
     if (!(compliance > 0)) return {};

@@ -17,6 +17,10 @@ BULLETFEM_API RigidProxy wholeMotion(const Body& body, int component);
 BULLETFEM_API void addWholeMotion(Body& body, int component, const Vec3& center, const Vec3& linear,
                                   const Vec3& angular);
 
+/// The mobility of a rigid proxy at a point [m] along a unit direction [1/kg].
+BULLETFEM_API double rigidMobility(const ContactProblem& problem, int rigidProxy, const Vec3& point,
+                                   const Vec3& direction);
+
 /// A rebound between two rigid proxies: one impulse at one point, which conserves both momenta, restores a share of
 /// their approach speed.
 struct Rebound

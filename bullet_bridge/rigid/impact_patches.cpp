@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#include "bullet_bridge/rigid/impact_patches.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
+#include "bullet_fem/fem/contact/rebound.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Contacts of a body with itself, and with nodes of cloth, which are no objects of `rigid`, do not rebound.
+bool isPairOf(const ImpactScene& scene, const ContactPoint& c)
+{
+    return c.m_other.m_body >= 0 ? c.m_other.m_body != c.m_soft.m_body
+                                 : c.m_rigidProxy < static_cast<int>(scene.m_rigid.rigidProxies().size());
+}
+
+}  // namespace
+
+int ImpactScene::componentOf(const SurfacePoint& point) const
+{
+    return m_bodies[point.m_body]->m_body.m_model->mesh().nodeComponent()[point.m_nodes[0]];
+}
+
+RigidProxy ImpactScene::before(int rigidProxy) const
+{
+    RigidProxy proxy = m_rigid.rigidProxies()[rigidProxy];
+    const btRigidBody* body = movableBody(m_rigid.object(rigidProxy));
+    const LinkMotion motion = body ? LinkMotion{vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())}
+                                   : m_rigid.motionNow(rigidProxy);
+    proxy.m_linearVelocity = motion.m_linear;
+    proxy.m_angularVelocity = motion.m_angular;
+    return proxy;
+}
+
+// Finds the bodies that rebound by their elasticity: with impacts, or a pressed point that approaches fast.
+void ImpactPatches::findMeeting(const ImpactScene& scene, double least)
+{
+    m_isMeeting.assign(scene.m_bodies.size(), 0);
+    if (!m_isElastic) return;
+    for (std::size_t b = 0; b < scene.m_bodies.size(); ++b)
+        m_isMeeting[b] = !scene.m_bodies[b]->m_memory.m_impacts.empty();
+    for (const ContactPoint& c : scene.m_problem.m_contacts)
+    {
+        if (m_isMeeting[c.m_soft.m_body] || !(dot(c.m_impulse, c.m_normal) > 0) || !isPairOf(scene, c)) continue;
+        const auto velocityOf = [&](const SurfacePoint& point)
+        { return point.of(scene.m_bodies[point.m_body]->m_body.m_state.m_v); };
+        const Vec3 other = c.m_other.m_body >= 0 ? velocityOf(c.m_other)
+                                                 : scene.before(c.m_rigidProxy).velocityAt(c.m_point + c.m_approach);
+        if (!(dot(c.m_normal, other - velocityOf(c.m_soft)) > least)) continue;
+        m_isMeeting[c.m_soft.m_body] = 1;
+        if (c.m_other.m_body >= 0) m_isMeeting[c.m_other.m_body] = 1;
+    }
+}
+
+// The empty patch of a contact. Between two soft bodies, the one of smaller broadphase id keeps the impact.
+ImpactPatch ImpactPatches::patchOf(const ImpactScene& scene, const ContactPoint& c)
+{
+    const std::vector<FemSoftBody*>& bodies = scene.m_bodies;
+    ImpactPatch patch;
+    patch.m_body = c.m_soft.m_body;
+    patch.m_component = scene.componentOf(c.m_soft);
+    patch.m_rigidProxy = c.m_rigidProxy;
+    if (c.m_other.m_body < 0) return patch;
+    patch.m_otherBody = c.m_other.m_body;
+    patch.m_otherComponent = scene.componentOf(c.m_other);
+    if (broadphaseId(*bodies[patch.m_otherBody]->m_softBody) < broadphaseId(*bodies[patch.m_body]->m_softBody))
+    {
+        std::swap(patch.m_body, patch.m_otherBody);
+        std::swap(patch.m_component, patch.m_otherComponent);
+    }
+    return patch;
+}
+
+void ImpactPatches::gather(const ImpactScene& scene, double least)
+{
+    findMeeting(scene, least);
+    m_patches.clear();
+    for (const ContactPoint& c : scene.m_problem.m_contacts)
+    {
+        if (!isPairOf(scene, c)) continue;
+        const bool isMeeting = m_isMeeting[c.m_soft.m_body] || (c.m_other.m_body >= 0 && m_isMeeting[c.m_other.m_body]);
+        if (!(c.m_restitution > 0) && !isMeeting) continue;
+        const ImpactPatch patch = patchOf(scene, c);
+        const Vec3 normal = patch.m_body == c.m_soft.m_body ? c.m_normal : -c.m_normal;
+        auto found =
+            std::find_if(m_patches.rbegin(), m_patches.rend(), [&](const ImpactPatch& p) { return p.isOf(patch); });
+        if (found == m_patches.rend())
+        {
+            m_patches.push_back(patch);
+            found = m_patches.rbegin();
+        }
+        const double push = dot(c.m_impulse, c.m_normal);
+        found->m_restitution = std::max(found->m_restitution, c.m_restitution);
+        if (!(push > 0)) continue;
+        found->m_push += push;
+        found->m_point += push * (c.m_point + c.m_approach);
+        found->m_normal += push * normal;
+    }
+}
+
+// Adds the response of a soft side. False if its elasticity is not known.
+bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, bool isHeld,
+                            PatchResponse& response)
+{
+    Body& soft = scene.m_bodies[body]->m_body;
+    const double size = norm(patch.m_normal);
+    m_impulses.assign(soft.m_state.m_x.size(), Vec3());
+    for (const ContactPoint& c : scene.m_problem.m_contacts)
+    {
+        const double push = dot(c.m_impulse, c.m_normal);
+        if (!(push > 0) || !isPairOf(scene, c) || !patch.isOf(patchOf(scene, c))) continue;
+        const bool isSoft = c.m_soft.m_body == body;
+        const SurfacePoint& point = isSoft ? c.m_soft : c.m_other;
+        const Vec3 impulse = ((isSoft ? push : -push) / size) * c.m_normal;
+        for (int k = 0; k < point.m_count; ++k) m_impulses[point.m_nodes[k]] += point.m_weights[k] * impulse;
+    }
+    if (!isHeld) response.m_rigid += rigidMobility(soft, m_impulses);
+    return addVibrations(soft, m_impulses, response);
+}
+
+double ImpactPatches::elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact)
+{
+    PatchResponse response;
+    const Vec3& n = impact.m_normal;
+    double acceleration = 0;
+    if (!addSide(scene, patch, patch.m_body, impact.m_isHeld, response)) return 0;
+    if (!impact.m_isHeld) acceleration -= dot(n, scene.m_bodies[patch.m_body]->gravity());
+    if (patch.m_otherBody >= 0)
+    {
+        if (!addSide(scene, patch, patch.m_otherBody, impact.m_otherIsHeld, response)) return 0;
+        if (!impact.m_otherIsHeld) acceleration += dot(n, scene.m_bodies[patch.m_otherBody]->gravity());
+    }
+    else if (!impact.m_otherIsHeld)
+    {
+        response.m_rigid += rigidMobility(scene.m_problem, patch.m_rigidProxy, impact.m_point, n);
+        const btRigidBody* rigid = movableBody(*impact.m_other);
+        if (rigid) acceleration += dot(n, vec3(rigid->getGravity()));
+    }
+    return elasticRestitution(response, impact.m_approach, acceleration);
+}
+
+}  // namespace bullet_fem

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+#pragma once
+
+#include <vector>
+
+#include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/rigid/rigid_proxies.h"
+#include "bullet_fem/fem/contact/elastic_rebound.h"
+
+namespace bullet_fem
+{
+
+/// A contact problem with its bodies and rigid proxies, before its impulses are applied.
+struct ImpactScene
+{
+    const ContactProblem& m_problem;
+    const std::vector<FemSoftBody*>& m_bodies;
+    const RigidProxies& m_rigid;
+    double m_step;  ///< [s]
+
+    /// The connected component that a point belongs to.
+    int componentOf(const SurfacePoint& point) const;
+
+    /// The rigid proxy of an object with its velocity as the step begins, without the forces of the step.
+    RigidProxy before(int rigidProxy) const;
+};
+
+/// The contact points between a connected component of a body and one other object. Between two soft bodies, the one of
+/// smaller broadphase id is the first.
+struct ImpactPatch
+{
+    int m_body = 0, m_component = 0, m_otherBody = -1, m_otherComponent = -1, m_rigidProxy = -1;
+    double m_restitution = 0;  ///< set coefficient of restitution [-]
+    double m_push = 0;         ///< sum of the normal impulses [N s]
+    Vec3 m_point, m_normal;    ///< sums weighted by normal impulse
+
+    bool isOf(const ImpactPatch& b) const
+    {
+        return m_body == b.m_body && m_component == b.m_component && m_otherBody == b.m_otherBody &&
+               m_otherComponent == b.m_otherComponent && m_rigidProxy == b.m_rigidProxy;
+    }
+};
+
+/// The patches of a contact problem that may rebound: with a coefficient of restitution set, or of bodies that meet at
+/// speed. Keeps scratch only.
+class ImpactPatches
+{
+public:
+    /// `isElastic`: bodies without a coefficient of restitution rebound, too.
+    explicit ImpactPatches(bool isElastic) : m_isElastic(isElastic) {}
+
+    bool isElastic() const { return m_isElastic; }
+
+    /// Collects the patches. Bodies meet at speed if they have impacts, or a pressed point approaches the other side
+    /// faster than `least` [m/s].
+    void gather(const ImpactScene& scene, double least);
+
+    const std::vector<ImpactPatch>& patches() const { return m_patches; }
+
+    /// The coefficient of restitution of an impact's bodies by their elasticity [-]: see elasticRestitution().
+    double elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact);
+
+private:
+    static ImpactPatch patchOf(const ImpactScene& scene, const ContactPoint& contact);
+    void findMeeting(const ImpactScene& scene, double least);
+    bool addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, bool isHeld, PatchResponse& response);
+
+    const bool m_isElastic;
+    std::vector<ImpactPatch> m_patches;
+    std::vector<unsigned char> m_isMeeting;  // per body: it has impacts, or a point that approaches fast
+    std::vector<Vec3> m_impulses;            // per node of one body, by a unit impulse on the patch [-]
+};
+
+}  // namespace bullet_fem
