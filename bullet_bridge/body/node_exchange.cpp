@@ -111,7 +111,57 @@ bool wasTeleported(const FemSoftBody& fem)
     return 2 * moved > freeNodes;
 }
 
-void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report)
+// A change of velocities whose part along an edge is below this share of the largest change turns the edge as a rigid
+// body does [-]; single precision leaves 1e-6.
+constexpr double kRigidShare = 1e-4;
+
+bool isVelocityWritten(const FemSoftBody& fem, int i)
+{
+    return !sameBits(fem.m_softBody->m_nodes[i].m_v, fem.m_written.m_v[i]);
+}
+
+// True if the changes of velocities that the user wrote stretch no edge: a rigid motion of every connected component.
+bool isRigidChange(const FemSoftBody& fem)
+{
+    const auto change = [&](int i) { return vec3(fem.m_softBody->m_nodes[i].m_v) - vec3(fem.m_written.m_v[i]); };
+    double largest = 0;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i) largest = std::max(largest, norm(change(i)));
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    for (const Tet& nodes : fem.m_body.m_model->mesh().tets())
+        for (int a = 1; a < 4; ++a)
+            for (int b = 0; b < a; ++b)
+            {
+                const Vec3 edge = x[nodes[a]] - x[nodes[b]];
+                const double along = std::fabs(dot(edge, change(nodes[a]) - change(nodes[b])));
+                if (!(along <= kRigidShare * largest * norm(edge))) return false;
+            }
+    return true;
+}
+
+/// Writes of the user since the last writeNodes.
+struct UserWrites
+{
+    bool m_teleported = false;  // see wasTeleported
+    bool m_isState = false;     // velocities of the whole body, fixed nodes included: its new state, which strains
+                                // nothing by itself; false: none, or a blow to some nodes
+};
+
+UserWrites findWrites(const FemSoftBody& fem)
+{
+    UserWrites writes;
+    writes.m_teleported = wasTeleported(fem);
+    bool any = false, all = true;
+    for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
+    {
+        const bool written = isVelocityWritten(fem, i);
+        any = any || written;
+        all = all && (written || fem.m_body.m_model->mesh().isLoose(i));
+    }
+    writes.m_isState = any && (all || writes.m_teleported || isRigidChange(fem));
+    return writes;
+}
+
+void readMotion(FemSoftBody& fem, int i, const UserWrites& writes, NodeReadReport& report)
 {
     btSoftBody::Node& node = fem.m_softBody->m_nodes[i];
     BodyState& state = fem.m_body.m_state;
@@ -131,7 +181,7 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     if (!state.m_fixed[i])
     {
         std::vector<Vec3>& prior = fem.m_body.m_loads.m_priorVelocity;
-        if (prior.empty() && !sameBits(node.m_v, writtenV)) prior = state.m_v;
+        if (!writes.m_isState && prior.empty() && !sameBits(node.m_v, writtenV)) prior = state.m_v;
         state.m_x[i] = x;
         state.m_v[i] = v;
     }
@@ -139,7 +189,8 @@ void readMotion(FemSoftBody& fem, int i, bool teleported, NodeReadReport& report
     {
         const bool isPin = node.m_im == 0 || !fem.m_body.m_model->mesh().isLoose(i);
         if (isPin && !sameBits(node.m_v, writtenV)) fem.m_pins.m_velocity[i] = v;
-        if (teleported)
+        if (writes.m_isState) state.m_v[i] = v;
+        if (writes.m_teleported)
             state.m_x[i] = x;
         else if (!sameBits(node.m_x, writtenX))
             fem.m_pins.m_position[i] = x, fem.m_pins.m_moved[i] = 1;
@@ -187,14 +238,15 @@ NodeReadReport readNodes(FemSoftBody& fem)
         report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
         return report;
     }
-    const bool teleported = wasTeleported(fem);
+    const UserWrites writes = findWrites(fem);
+    if (writes.m_isState) fem.m_body.m_loads.m_priorVelocity.clear();
     MassChanges masses;
     for (int i = 0; i < fem.m_softBody->m_nodes.size(); ++i)
     {
         const bool wasFixed = fem.m_body.m_state.m_fixed[i];
         readMass(fem, i, masses, report);
         if (fem.m_body.m_state.m_fixed[i] && !wasFixed) fem.m_pins.m_velocity[i] = {};
-        readMotion(fem, i, teleported, report);
+        readMotion(fem, i, writes, report);
     }
     if (masses.m_massless > 0)
     {
@@ -203,6 +255,21 @@ NodeReadReport readNodes(FemSoftBody& fem)
     }
     report.m_stalePins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
     return report;
+}
+
+void readLedPins(FemSoftBody& fem)
+{
+    const btSoftBody::tNodeArray& nodes = fem.m_softBody->m_nodes;
+    for (int i = 0; i < nodes.size(); ++i)
+        if (nodes[i].m_im != 0 && !sameBits(nodes[i].m_x, nodes[i].m_q)) return;
+    for (int i = 0; i < nodes.size(); ++i)
+    {
+        const btSoftBody::Node& node = nodes[i];
+        if (node.m_im != 0 || sameBits(node.m_x, node.m_q) || !isBelow(kFarthest, vec3(node.m_q))) continue;
+        fem.m_body.m_state.m_x[i] = vec3(node.m_q);
+        fem.m_pins.m_position[i] = vec3(node.m_x);
+        fem.m_pins.m_moved[i] = 1;
+    }
 }
 
 double factorMismatch(const FemSoftBody& fem, double step)

@@ -22,8 +22,14 @@ double factorMismatch(const FemSoftBody& fem, double step);
 
 /// Reads the user's changes of m_x, m_v and m_im since the last writeNodes. x and v are kept in double precision; only
 /// components whose value differs from the written one are read. The new position of a pinned node is its target within
-/// the step. Nodes without elements stay where they are written. Never allocates.
+/// the step. Nodes without elements stay where they are written. Velocities of the whole body, fixed nodes included,
+/// are its new state: those of all nodes, those of a rigid motion, and those that come with new positions. Velocities
+/// of some nodes are a blow to these, which strains the body. Never allocates.
 NodeReadReport readNodes(FemSoftBody& fem);
+
+/// Takes the pinned nodes of a new body that the user moved from m_q, where the body was made, as led to m_x within the
+/// first step, if the free nodes were not moved.
+void readLedPins(FemSoftBody& fem);
 
 /// Collects the external loads of the step of `step` [s]: gravity, m_f (in which Bullet's applyForces has put wind and
 /// pressure), Bullet's velocity damping kDP per step as a rate, the force of pose matching (matchPose), and the target

@@ -83,12 +83,11 @@ void SupportReactions::addOutside(int component, const Vec3& impulse, const Vec3
     m_components[component].m_angular += angularImpulse;
 }
 
-void SupportReactions::changeVelocity(const std::vector<unsigned char>& fixed, const std::vector<Vec3>& change)
+void SupportReactions::changeVelocity(const std::vector<Vec3>& change)
 {
     if (!isNoting()) return;
     for (std::size_t i = 0; i < change.size(); ++i)
     {
-        if (fixed[i]) continue;
         m_beginVelocity[i] += change[i];
         m_from[i] += change[i];
     }

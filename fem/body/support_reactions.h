@@ -57,8 +57,8 @@ public:
     /// too.
     void addOutside(int component, const Vec3& impulse, const Vec3& angularImpulse);
 
-    /// Changes of velocities from outside after begin(), but of fixed nodes [m/s]; of any body.
-    void changeVelocity(const std::vector<unsigned char>& fixed, const std::vector<Vec3>& change);
+    /// Changes of velocities from outside after begin() [m/s]; of any body.
+    void changeVelocity(const std::vector<Vec3>& change);
 
     /// As the step ends: the change c [m/s], if some of it is not resolved.
     void noteChange(const std::vector<Vec3>& change) { m_change = change, m_needsSmoothing = true; }

@@ -150,9 +150,10 @@ SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const S
 void addVelocity(Body& body, const std::vector<Vec3>& change)
 {
     std::vector<Vec3>& v = body.m_workspace.scratch().m_velocity;
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += change[i];
     for (std::size_t i = 0; i < v.size(); ++i)
-        if (!body.m_state.m_fixed[i]) v[i] += change[i];
-    body.m_workspace.scratch().m_reactions.changeVelocity(body.m_state.m_fixed, change);
+        if (body.m_state.m_fixed[i]) body.m_loads.m_targetVelocity[i] += change[i];
+    body.m_workspace.scratch().m_reactions.changeVelocity(change);
 }
 
 Vec3 applyPositionCorrection(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)

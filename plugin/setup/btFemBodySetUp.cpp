@@ -156,6 +156,7 @@ void btFemBodySetUp::setUpNew(btFemBodyRecord& record, double step)
     record.fem().m_body.m_state.m_mass = input.m_mass;    // the model's may be those of a copy elsewhere,
     record.fem().m_body.m_state.m_fixed = input.m_fixed;  // or of the baking
     record.fem().m_setUp.m_restOrigin = rest.m_origin;
+    readLedPins(record.fem());
     record.m_asked.m_definition.reset();
     makeFaces(soft, mesh);
     m_announce(soft);

@@ -47,7 +47,8 @@ BULLETFEM_API void solveFreeMotions(FreeMotion* motions, int count);
 /// solved together; every result is bitwise equal to that of the body alone.
 BULLETFEM_API void applyImpulses(ImpulseResponse* responses, int count);
 
-/// Adds a change to velocity(body), one per node [m/s], as if the nodes had always moved so; fixed nodes keep theirs.
+/// Adds a change to velocity(body), one per node [m/s], as if the nodes had always moved so; of a fixed node to its
+/// prescribed velocity, too.
 BULLETFEM_API void addVelocity(Body& body, const std::vector<Vec3>& change);
 
 /// Position correction: adds h P J to the displacement of this step without changing the velocities, J one impulse per
