@@ -147,9 +147,9 @@ GameScene sceneOf(const std::string& name, int frames, int subSteps, bool carrie
     return scene;
 }
 
-GameScene pit()
+GameScene pit(int subSteps)
 {
-    return sceneOf("pit", 480, 1, false, buildPit);
+    return sceneOf(subSteps == 1 ? "pit" : "pit at 240 Hz", 480 / subSteps, subSteps, false, buildPit);
 }
 
 GameScene anchored(int anchors)
@@ -176,13 +176,20 @@ GameScene tower()
 
 std::vector<GameScene> gameScenes(const std::string& bulletSource)
 {
-    return {pit(),
+    return {pit(1),
+            pit(4),
             anchored(9),
             anchored(121),
             mat(20),
             mat(39),
             pinch(),
             tower(),
+            lightBoxes(),
+            heavyOnLight(200),
+            heavyOnLight(1000),
+            jam(),
+            manyAnchors(),
+            cellsAtRest(),
             car(),
             balls(false),
             balls(true),

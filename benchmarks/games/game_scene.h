@@ -28,8 +28,9 @@ struct GameScene
 GameScene sceneOf(const std::string& name, int frames, int subSteps, bool carriesItsWeight,
                   const std::function<void(GameWorld&)>& build);
 
-/// Ten soft bodies (9,150 elements) and fifty rigid ones fall into a pit.
-GameScene pit();
+/// Ten soft bodies (9,150 elements) and fifty rigid ones fall into a pit, with this number of steps per
+/// frame; the pit of several steps has fewer frames.
+GameScene pit(int subSteps);
 
 /// A block of 2,000 elements hangs from a static box by `anchors` of its upper nodes, 9 or 121; there is no contact.
 GameScene anchored(int anchors);
@@ -57,6 +58,21 @@ GameScene pinchFriction(const std::string& bulletSource);
 
 /// TetraBunny of Bullet's soft demo falls onto waves of triangles: 1,374 elements, many of them slivers.
 GameScene tetraBunny(const std::string& bulletSource);
+
+/// Five soft cubes of 125 kg and five rigid boxes of 2.5 kg stand on each other in turn.
+GameScene lightBoxes();
+
+/// A rigid box of this mass [kg] on a soft cube of 1 kg.
+GameScene heavyOnLight(int mass);
+
+/// Eighteen soft cubes start with overlaps of 13 % of their edges.
+GameScene jam();
+
+/// A plate of 4,805 elements hangs by all 1,024 nodes of its upper face.
+GameScene manyAnchors();
+
+/// A thousand soft cubes of one cell fall asleep on the ground.
+GameScene cellsAtRest();
 
 /// All scenes.
 std::vector<GameScene> gameScenes(const std::string& bulletSource);
