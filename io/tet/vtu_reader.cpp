@@ -20,7 +20,7 @@ using tinyxml2::XMLElement;
 // ten in grids that compress well; small zlib files, or pieces that share arrays, could otherwise exhaust the memory.
 constexpr std::uint64_t kNumbers = 1000000, kNumbersPerByte = 12;
 
-[[noreturn]] void failAt(const XMLElement& element, const std::string& cause)
+[[noreturn]] void failInVtu(const XMLElement& element, const std::string& cause)
 {
     throw std::runtime_error(message("line ", element.GetLineNum(), ": ", cause));
 }
@@ -45,7 +45,7 @@ ByteOrder readOrder(const XMLElement& root)
 {
     const std::string order = vtuAttribute(root, "byte_order", "LittleEndian");
     if (order != "LittleEndian" && order != "BigEndian")
-        failAt(root, "byte_order is '" + order + "'; it must be LittleEndian or BigEndian");
+        failInVtu(root, "byte_order is '" + order + "'; it must be LittleEndian or BigEndian");
     return order == "BigEndian" ? ByteOrder::big : ByteOrder::little;
 }
 
@@ -55,17 +55,17 @@ VtuArrayEncoding readEncoding(const XMLElement& root)
     encoding.order = readOrder(root);
     const std::string header = vtuAttribute(root, "header_type", "UInt32");
     if (header != "UInt32" && header != "UInt64")
-        failAt(root, "header_type is '" + header + "'; it must be UInt32 or UInt64");
+        failInVtu(root, "header_type is '" + header + "'; it must be UInt32 or UInt64");
     encoding.headerBytes = header == "UInt64" ? 8 : 4;
     const std::string compressor = vtuAttribute(root, "compressor");
     if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-        failAt(root, "the compressor '" + compressor + "' is not known; save with zlib or without compression");
+        failInVtu(root, "the compressor '" + compressor + "' is not known; save with zlib or without compression");
     encoding.compressed = !compressor.empty();
     if (const XMLElement* appended = root.FirstChildElement("AppendedData"))
     {
         const std::string kind = vtuAttribute(*appended, "encoding");
         if (kind != "raw" && kind != "base64")
-            failAt(*appended, "the encoding of AppendedData is '" + kind + "'; it must be raw or base64");
+            failInVtu(*appended, "the encoding of AppendedData is '" + kind + "'; it must be raw or base64");
         encoding.appendedBase64 = kind == "base64";
     }
     return encoding;
@@ -74,7 +74,7 @@ VtuArrayEncoding readEncoding(const XMLElement& root)
 const XMLElement& childOf(const XMLElement& element, const char* name)
 {
     const XMLElement* child = element.FirstChildElement(name);
-    if (!child) failAt(element, message("<", element.Name(), "> has no <", name, ">"));
+    if (!child) failInVtu(element, message("<", element.Name(), "> has no <", name, ">"));
     return *child;
 }
 
@@ -82,7 +82,7 @@ const XMLElement& namedArray(const XMLElement& cells, const std::string& name)
 {
     for (const XMLElement* a = cells.FirstChildElement("DataArray"); a; a = a->NextSiblingElement("DataArray"))
         if (vtuAttribute(*a, "Name") == name) return *a;
-    failAt(cells, "<Cells> has no DataArray '" + name + "'");
+    failInVtu(cells, "<Cells> has no DataArray '" + name + "'");
 }
 
 std::uint64_t countOf(const XMLElement& piece, const char* name)
@@ -93,7 +93,7 @@ std::uint64_t countOf(const XMLElement& piece, const char* name)
     }
     catch (const std::runtime_error& error)
     {
-        failAt(piece, error.what());
+        failInVtu(piece, error.what());
     }
 }
 
@@ -103,10 +103,10 @@ void readPoints(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile
     const XMLElement& points = childOf(piece, "Points");
     const XMLElement& array = childOf(points, "DataArray");
     const std::string components = vtuAttribute(array, "NumberOfComponents", "3");
-    if (components != "3") failAt(array, "points have " + components + " components, not 3");
+    if (components != "3") failInVtu(array, "points have " + components + " components, not 3");
     const std::vector<double> x = readVtuDoubles(array, encoding);
     if (x.size() % 3 != 0 || x.size() / 3 != count)
-        failAt(array, message(x.size(), " coordinates for ", count, " points"));
+        failInVtu(array, message(x.size(), " coordinates for ", count, " points"));
     for (std::size_t i = 0; i < x.size(); i += 3)
     {
         mesh.m_nodeNumbers.push_back(mesh.m_positions.size());
@@ -135,14 +135,14 @@ void readPiece(const XMLElement& piece, VtuArrayEncoding& encoding, TetMeshFile&
     cells.m_ends = readVtuIntegers(namedArray(element, "offsets"), encoding);
     cells.m_types = readVtuIntegers(namedArray(element, "types"), encoding);
     if (cells.m_ends.size() != cellCount)
-        failAt(element, message(cells.m_ends.size(), " offsets for ", cellCount, " cells"));
+        failInVtu(element, message(cells.m_ends.size(), " offsets for ", cellCount, " cells"));
     try
     {
         appendVtkCells(mesh, cells, firstPoint);
     }
     catch (const std::runtime_error& error)
     {
-        failAt(element, error.what());
+        failInVtu(element, error.what());
     }
     readRegions(piece, cells, encoding, mesh);
     if (!mesh.m_regions.empty()) mesh.m_regions.resize(mesh.m_tets.size(), 0);
@@ -163,7 +163,7 @@ TetMeshFile readVtu(std::string_view bytes)
         throw std::runtime_error("line 1: the file has no <VTKFile>");
     const std::string type = vtuAttribute(*root, "type");
     if (type != "UnstructuredGrid")
-        failAt(*root, "the type is '" + type + "'; tetrahedra are in an UnstructuredGrid only");
+        failInVtu(*root, "the type is '" + type + "'; tetrahedra are in an UnstructuredGrid only");
 
     VtuArrayEncoding encoding = readEncoding(*root);
     encoding.appended = appended;

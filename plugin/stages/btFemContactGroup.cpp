@@ -83,7 +83,6 @@ void btFemContactGroup::collect(const Scope& scope)
     m_settings.m_step.m_maxIterations = m_info.m_maxIterations;
     m_settings.m_rounds = m_info.m_contactRounds;
     m_settings.m_sweeps = m_info.m_contactSweeps;
-    m_settings.m_untilSolved = false;
     m_settings.m_tolerance = m_info.m_contactTolerance;
     if (mayRebound(m_problem)) m_settings.m_tolerance = std::min(m_settings.m_tolerance, kReboundTolerance);
     m_settings.m_pushFraction = m_info.m_erp;
@@ -260,7 +259,6 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet)
 void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas)
 {
     if (!m_problem.m_contacts.empty()) findRigidContacts();
-    m_settings.m_untilSolved = true;
     m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     m_solverBodies.begin(m_rigid, pool, linkDeltas);
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
