@@ -117,11 +117,9 @@ void BulletRows::appendContact(const BulletConstraints& bullet, int k, const std
     }
     double beyond = 0;
     if (first.m_proxy < 0) return;
-    if (!targetBeyond(row, beyond))
-    {
-        m_anyBad = true;
-        return;
-    }
+    const bool isBad = !targetBeyond(row, beyond);
+    m_anyBad = m_anyBad || isBad || row.m_cfm < 0;
+    if (isBad) return;
     RigidContact touch;
     touch.m_rigidProxy = first.m_proxy;
     touch.m_other = second.m_proxy;
@@ -233,11 +231,9 @@ void BulletRows::appendJoints(const BulletConstraints& bullet, const std::vector
         const Side a = sideOf(bullet, row.m_solverBodyIdA, proxyOf), b = sideOf(bullet, row.m_solverBodyIdB, proxyOf);
         if (a.m_proxy < 0 && b.m_proxy < 0) continue;
         double beyond = 0;
-        if (!targetBeyond(row, beyond) || !(row.m_lowerLimit <= row.m_upperLimit))
-        {
-            m_anyBad = m_anyBad || row.m_jacDiagABInv != 0;
-            continue;
-        }
+        const bool isBad = !targetBeyond(row, beyond) || !(row.m_lowerLimit <= row.m_upperLimit);
+        m_anyBad = m_anyBad || row.m_cfm < 0 || (isBad && row.m_jacDiagABInv != 0);
+        if (isBad) continue;
         const bool continues = last && axis < 3 && last->m_originalContactPoint == row.m_originalContactPoint &&
                                complianceOf(*last) == complianceOf(row);
         if (!continues)

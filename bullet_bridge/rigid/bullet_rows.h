@@ -37,7 +37,8 @@ public:
     /// Writes the impulses of the solution to Bullet's rows, and removes them from the problem.
     void takeBack(const BulletConstraints& bullet, ContactProblem& problem);
 
-    /// True if a row was left out that Bullet itself could not solve: not finite, or with contradictory limits.
+    /// True if a row was left out that Bullet itself could not solve, not finite or with contradictory limits, or if
+    /// its cfm is negative, which counts as 0.
     bool anyBad() const { return m_anyBad; }
 
 private:

@@ -14,6 +14,12 @@
 namespace bullet_fem
 {
 
+ElasticEnergyScratch::ElasticEnergyScratch(const RestShape& shape)
+    : m_dilatation(shape.m_patches.count()), m_strain(shape.m_edgeDomains.empty() ? 0 : shape.m_elements.size())
+{
+    for (const RestElement& element : shape.m_elements) m_stiffness += 2 * element.m_muVolume + element.m_lambdaVolume;
+}
+
 StepScratch::StepScratch(const BodyModel& model)
     : m_velocity(model.nodeCount()),
       m_kickPosition(model.nodeCount()),
@@ -24,11 +30,13 @@ StepScratch::StepScratch(const BodyModel& model)
       m_strained(model.nodeCount()),
       m_rightSide(model.nodeCount()),
       m_increment(model.nodeCount()),
+      m_impulses(model.nodeCount()),
       m_residual(model.nodeCount()),
       m_momentum(model.mesh()),
       m_led(model.mesh()),
       m_solver(model.nodeCount()),
       m_newton(model.shape().m_materials.isNonlinear() ? static_cast<std::size_t>(model.nodeCount()) : 0),
+      m_elasticEnergy(model.shape()),
       m_reactions(model),
       m_elements(model.nodeCount(), model.elements().blockCount()),
       m_factor{allocateFloats(model.factor().lower().vectorSize()),

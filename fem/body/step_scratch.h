@@ -43,6 +43,16 @@ struct QuasiNewtonScratch
     std::vector<Vec3> m_direction;  ///< d [m/s]
 };
 
+/// Arrays of elasticEnergy(); empty where a body needs none.
+struct ElasticEnergyScratch
+{
+    explicit ElasticEnergyScratch(const RestShape& shape);
+
+    double m_stiffness = 0;                 ///< sum of (2 mu + lambda) V over the elements [J]
+    std::vector<double> m_dilatation;       ///< mean dilatation of every patch [-]
+    std::vector<SymmetricTensor> m_strain;  ///< strain of every element with edge domains [-]
+};
+
 /// All data that a step writes besides the state.
 struct StepScratch
 {
@@ -64,6 +74,7 @@ struct StepScratch
     bool m_isPushed = false;           ///< false: m_push is zero
     std::vector<Vec3> m_rightSide;     ///< b [kg m/s]
     std::vector<Vec3> m_increment;     ///< dv [m/s]
+    std::vector<Vec3> m_impulses;      ///< of contacts, joints and changes of velocity in this step [N s]
     std::vector<Vec3> m_residual;      ///< residual of this step's impulse responses [kg m/s]
     bool m_hasResidual = false;        ///< false: m_residual is unused and counts as zero
     RigidMomentum m_momentum;          ///< momenta prescribed for every connected component
@@ -77,6 +88,7 @@ struct StepScratch
     double m_leastDamping = 0;
     double m_stepVariation = 0;  ///< r of the recent steps: 1 - (shortest / longest)^2, in [0, 1)
     QuasiNewtonScratch m_newton;
+    mutable ElasticEnergyScratch m_elasticEnergy;
     mutable SupportReactions m_reactions;
     mutable ElementWork m_elements;
     mutable FactorWork m_factor;

@@ -18,6 +18,7 @@
 #include "fem/solve/strain_increment.h"
 #include "fem/solve/warped_compliance.h"
 #include "fem/solve/warped_system.h"
+#include "fem/step/energy_limit.h"
 #include "fem/step/one_body.h"
 
 namespace bullet_fem
@@ -83,6 +84,15 @@ void beginReactions(Body& body, double step)
     body.m_workspace.scratch().m_reactions.begin(*body.m_model, body.m_state, how);
 }
 
+void beginImpulses(const FreeMotion& motion)
+{
+    std::vector<Vec3>& impulses = motion.m_body->m_workspace.scratch().m_impulses;
+    if (motion.m_predicted)
+        impulses.assign(motion.m_predicted->begin(), motion.m_predicted->end());
+    else
+        std::fill(impulses.begin(), impulses.end(), Vec3());
+}
+
 // Reactions of actuators are computed now, because the program may remove these before it reads the reactions.
 void noteReactions(Body& body, double share)
 {
@@ -122,12 +132,18 @@ void solveFreeMotions(FreeMotion* motions, int count)
         noteStep(*motions[k].m_body, motions[k].m_settings.m_step);
         chooseDamping(*motions[k].m_body, motions[k].m_settings);
         beginReactions(*motions[k].m_body, motions[k].m_settings.m_step);
+        beginImpulses(motions[k]);
     }
     solveAll(motions, count);
 }
 
 void applyImpulses(ImpulseResponse* responses, int count)
 {
+    for (int k = 0; k < count; ++k)
+    {
+        std::vector<Vec3>& sum = responses[k].m_body->m_workspace.scratch().m_impulses;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (*responses[k].m_impulses)[i];
+    }
     solveAll(responses, count);
 }
 
@@ -149,11 +165,16 @@ SolveReport applyImpulses(Body& body, const std::vector<Vec3>& impulses, const S
 
 void addVelocity(Body& body, const std::vector<Vec3>& change)
 {
-    std::vector<Vec3>& v = body.m_workspace.scratch().m_velocity;
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] += change[i];
-    for (std::size_t i = 0; i < v.size(); ++i)
-        if (body.m_state.m_fixed[i]) body.m_loads.m_targetVelocity[i] += change[i];
-    body.m_workspace.scratch().m_reactions.changeVelocity(change);
+    StepScratch& scratch = body.m_workspace.scratch();
+    for (std::size_t i = 0; i < change.size(); ++i)
+    {
+        scratch.m_velocity[i] += change[i];
+        if (body.m_state.m_fixed[i])
+            body.m_loads.m_targetVelocity[i] += change[i];
+        else
+            scratch.m_impulses[i] += body.m_state.m_mass[i] * change[i];
+    }
+    scratch.m_reactions.changeVelocity(change);
 }
 
 Vec3 applyPositionCorrection(Body& body, const std::vector<Vec3>& impulses, const StepSettings& settings)
@@ -190,9 +211,11 @@ void finishSteps(StepEnd* ends, int count)
     {
         Body& body = *ends[k].m_body;
         StepScratch& scratch = body.m_workspace.scratch();
-        const double share = StepCoefficients(ends[k].m_settings, body).smoothing();
-        if (scratch.m_reactions.isNoting()) noteReactions(body, share);
-        endDrift(body, ends[k].m_settings, ends[k].m_needsSmoothing ? share : 0);
+        const double smoothing = StepCoefficients(ends[k].m_settings, body).smoothing();
+        double share = ends[k].m_needsSmoothing ? smoothing : 0;
+        ends[k].m_isShortened = limitEnergy(body, ends[k].m_settings, share);
+        if (scratch.m_reactions.isNoting()) noteReactions(body, ends[k].m_isShortened ? share : smoothing);
+        endDrift(body, ends[k].m_settings, share);
         scratch.m_velocity = body.m_state.m_v;
         if (scratch.m_reactions.isNoting()) scratch.m_reactions.finish(body.m_state);
         if (scratch.m_isPushed) stopPushing(scratch);

@@ -100,7 +100,15 @@ enum btFemFlags
     /// is its mass over its volume; pins are ignored. E is the harmonic mean over the volume, for relaxing materials
     /// with the long-time modulus; Neo-Hookean regions count as rigid. Never set without gravity. Checked when the body
     /// becomes FEM, and when its material, rest shape, mass or gravity changes.
-    BT_FEM_TOO_SOFT = 1 << 27
+    BT_FEM_TOO_SOFT = 1 << 27,
+    /// The step would have created energy, more than half of what the body had and was given: elements turned or were
+    /// crushed too far within it. Its elastic motion was shortened (docs/theory.md, Energy), and momenta stay. Take
+    /// smaller steps or a softer material; where other flags are set, mend their causes first.
+    BT_FEM_ENERGY = 1 << 28,
+    /// A constraint of Bullet in the body's island was left out, as it is not finite or has a lower limit above the
+    /// upper one, or its constraint force mixing is negative and counts as 0. Mend the values that were written to a
+    /// joint or a contact point.
+    BT_FEM_BAD_CONSTRAINT = 1 << 29
 };
 
 /// Report of a body's last step. Every field is written in every step; all are zero for a body that is not FEM.

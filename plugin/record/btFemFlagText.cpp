@@ -87,6 +87,13 @@ constexpr btFemFlagText kFlagTexts[] = {
     {BT_FEM_TOO_SOFT, "BT_FEM_TOO_SOFT", "too soft",
      "The body is too soft for its own weight: rho g H exceeds E / 2 with a linear law, so that it sinks into itself. "
      "Take the Neo-Hookean law, a larger Young's modulus, or a smaller or lighter body."},
+    {BT_FEM_ENERGY, "BT_FEM_ENERGY", "energy limited",
+     "The step would have created energy, as elements turned or were crushed too far within it, and the body's elastic "
+     "motion was shortened. Take smaller steps or a softer material."},
+    {BT_FEM_BAD_CONSTRAINT, "BT_FEM_BAD_CONSTRAINT", "bad rigid constraint",
+     "A joint or contact of rigid bodies near the body was left out, as it was not finite or had a lower limit above "
+     "the "
+     "upper one, or it had a negative softness. Mend the values that were written to it."},
 };
 
 }  // namespace

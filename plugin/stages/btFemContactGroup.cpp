@@ -245,6 +245,8 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet)
     const btFemStopwatch watch;
     m_solverBodies.begin(m_rigid, bullet.m_bodies, nullptr);
     m_bulletRows.append(bullet, m_solverBodies.proxyOf(), m_problem);
+    if (m_bulletRows.anyBad())
+        for (btFemBodyRecord* record : m_records) record->m_reports.m_step.m_flags |= BT_FEM_BAD_CONSTRAINT;
     m_solverBodies.read(m_problem.m_rigidProxies);
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
     m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);

@@ -155,8 +155,10 @@ void btFemFreeMotion::finish(const std::vector<btFemBodyRecord*>& solved)
                   {
                       const Range& batch = batches[b];
                       for (int k = batch.m_begin; k < batch.m_end; ++k)
-                          m_ends[k] = {&inBatches(k).fem().m_body, settingsOf(inBatches(k)), false};
+                          m_ends[k] = {&inBatches(k).fem().m_body, settingsOf(inBatches(k))};
                       finishSteps(m_ends.data() + batch.m_begin, batch.m_end - batch.m_begin);
+                      for (int k = batch.m_begin; k < batch.m_end; ++k)
+                          if (m_ends[k].m_isShortened) inBatches(k).m_reports.m_step.m_flags |= BT_FEM_ENERGY;
                   });
 }
 

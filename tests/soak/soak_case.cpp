@@ -21,7 +21,7 @@ constexpr double kFastest = 100;  // [m/s]
 constexpr double kFastestCrushed = 1000;  // [m/s]
 constexpr int kTellsOfWork = BT_FEM_NOT_CONVERGED | BT_FEM_STALE_FACTOR | BT_FEM_SEVERAL_PIECES | BT_FEM_REFACTORED |
                              BT_FEM_LOST_ANCHOR | BT_FEM_REFACTOR_PAYS | BT_FEM_CONTACT_LIMIT | BT_FEM_SLIVERS |
-                             BT_FEM_SOLVED_AFTER | BT_FEM_TOO_SOFT;
+                             BT_FEM_SOLVED_AFTER | BT_FEM_TOO_SOFT | BT_FEM_ENERGY;
 constexpr int kTellsOfCrushing = BT_FEM_PENETRATING | BT_FEM_INSIDE_OUT;
 
 // Inactive bodies keep values that the program wrote.

@@ -80,6 +80,7 @@ void SoftBodyContacts::takeExpected(const StepSettings& settings, double floor)
     {
         m_nodeIn[i] = body.m_state.m_fixed[i] ? Vec3() : m_nodeIn[i] - (*m_body.m_predicted)[i];
         scratch.m_residual[i] += m_nodeIn[i];
+        scratch.m_impulses[i] += m_nodeIn[i];
         left += dot(scratch.m_residual[i], scratch.m_residual[i]);
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);

@@ -64,6 +64,11 @@ std::vector<BadPointCase> badPoints()
              false}};
 }
 
+bool isFlagged(const LoadedRigidScene& scene)
+{
+    return (scene.m_world.fem().stepReport(scene.m_softPayloads.front()).m_flags & BT_FEM_BAD_CONSTRAINT) != 0;
+}
+
 std::function<void(btManifoldPoint&)>* g_write = nullptr;
 
 bool writePoint(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int, const btCollisionObjectWrapper*, int,
@@ -95,16 +100,45 @@ TEST_P(BadPoints, LeaveTheRestSolved)
     btRigidBody& tray = scene.addLoadedTray({0, 0, height});
     btRigidBody& bad = scene.addBox({0.05, 0.05, 0.05}, 0.1, {0.15, 0, LoadedRigidScene::kTray.z + 0.025});
     bad.setCollisionFlags(bad.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    bool anyFlagged = false;
     for (int k = 0; k < 60; ++k)
     {
         scene.m_world.step();
         ASSERT_TRUE(scene.allFinite({&tray})) << k;
+        anyFlagged = anyFlagged || isFlagged(scene);
     }
+    EXPECT_EQ(anyFlagged, !GetParam().m_carries);
     EXPECT_TRUE(scene.touches());
     EXPECT_LT(tray.getLinearVelocity().length(), 1e-2);
     EXPECT_NEAR(double(tray.getCenterOfMassPosition().z()), height, 2e-3);
     if (!GetParam().m_carries) return;
     EXPECT_NEAR(double(bad.getCenterOfMassPosition().z()), 2 * height + 0.025, 5e-3);
+}
+
+// A motor of negative largest impulse has a lower limit above the upper one.
+TEST(BadMotor, IsLeftOutAndFlaggedWhileItIsBad)
+{
+    for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
+    {
+        LoadedRigidScene scene(coupling);
+        scene.m_world.addFloorBox();
+        btRigidBody& tray = scene.addLoadedTray({0, 0, LoadedRigidScene::kTray.z / 2});
+        btRigidBody& flap = scene.addBox({0.05, 0.05, 0.05}, 0.1, {0.25, 0, 0.2});
+        auto& hinge = scene.join<btHingeConstraint>(tray, flap, btVector3(btScalar(0.25), 0, btScalar(0.175)),
+                                                    btVector3(0, 0, 0), btVector3(0, 1, 0), btVector3(0, 1, 0));
+        tray.setActivationState(DISABLE_DEACTIVATION);
+        scene.m_softPayloads.front()->setActivationState(DISABLE_DEACTIVATION);
+        for (const bool isBad : {false, true, false})
+        {
+            hinge.enableAngularMotor(isBad, 1, -1);
+            for (int k = 0; k < 20; ++k)
+            {
+                scene.m_world.step();
+                ASSERT_TRUE(scene.allFinite({&tray, &flap})) << k;
+            }
+            EXPECT_EQ(isFlagged(scene), isBad) << couplingName(coupling);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, BadPoints, testing::ValuesIn(badPoints()),

@@ -89,6 +89,7 @@ struct StepEnd
     Body* m_body = nullptr;         ///< not null
     StepSettings m_settings;        ///< settings of its step
     bool m_needsSmoothing = false;  ///< output: the step changed the velocities by more than it resolves
+    bool m_isShortened = false;     ///< output: elastic motion was shortened, as the step would have gained energy
 };
 
 }  // namespace bullet_fem

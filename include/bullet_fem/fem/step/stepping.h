@@ -63,7 +63,8 @@ BULLETFEM_API Vec3 applyPositionCorrection(Body& body, const std::vector<Vec3>& 
 }
 
 /// Completes the step: x <- x+ plus the position corrections, v <- velocity(body); with less than full numerical
-/// damping the unresolved part is removed from v. Requires the settings of solveFreeMotion.
+/// damping the unresolved part is removed from v. Elastic motion that would gain energy is shortened (docs/theory.md,
+/// Energy). Requires the settings of solveFreeMotion.
 BULLETFEM_API void finishStep(Body& body, const StepSettings& settings);
 /// Completes the steps of `count` different bodies. Bodies that share a model and follow each other are solved
 /// together; every result is bitwise equal to that of the body alone.
@@ -90,7 +91,8 @@ BULLETFEM_API Vec3 linearMomentum(const BodyState& state);
 /// Angular momentum of a state about the origin [kg m2/s].
 BULLETFEM_API Vec3 angularMomentum(const BodyState& state);
 
-/// Kinetic energy plus the warped elastic energy 1/2 sum (R^T x - X)^T K_e (R^T x - X) [J].
+/// Kinetic energy plus the warped elastic energy 1/2 sum (R^T x - X)^T K_e (R^T x - X) [J]. Uses the body's scratch:
+/// not concurrently with a step of this body, or with another call for it.
 BULLETFEM_API double mechanicalEnergy(const Body& body);
 
 }  // namespace bullet_fem

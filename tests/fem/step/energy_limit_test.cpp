@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// No step creates more than half of the energy that the body has and is given. A bar of 2 x .1 x .1 m whose end swings
+// by a quarter of its length within a step is stretched along chords, by several times its energy if it is stiff.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "bullet_fem/fem/step/stepping.h"
+#include "fem/scenes/elasticity_scenes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kStep = 1.0 / 60;  // [s]
+constexpr double kLength = 2;       // [m]
+constexpr double kMaxGain = 0.5;    // [-]
+
+Body makeBar(double young, const NodePredicate& fixed = {})
+{
+    return makeBody(makeBox({kLength, .1, .1}, {40, 2, 2}), elasticMaterial(young, .3), fixed, kStep);
+}
+
+// Gives free nodes the velocity z of a bending bar with an end that moves at `speed` [m/s].
+void bend(Body& body, double speed)
+{
+    for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i)
+    {
+        const double x = body.m_state.m_x[i].x / kLength;
+        if (!body.m_state.m_fixed[i]) body.m_state.m_v[i] = {0, 0, speed * x * x};
+    }
+}
+
+bool isClamped(const Vec3& X)
+{
+    return X.x == 0;
+}
+
+// Returns whether the step was shortened.
+bool stepOnce(Body& body, double numericalDamping = 1)
+{
+    StepSettings settings;
+    settings.m_step = kStep;
+    settings.m_numericalDamping = numericalDamping;
+    solveFreeMotion(body, settings);
+    StepEnd end = {&body, settings};
+    finishSteps(&end, 1);
+    return end.m_isShortened;
+}
+
+TEST(EnergyLimit, BoundsTheGainOfAFastSwing)
+{
+    for (const double damping : {0.0, 1.0})
+    {
+        Body body = makeBar(1e9, isClamped);
+        bend(body, 30);
+        const double before = mechanicalEnergy(body);
+        EXPECT_TRUE(stepOnce(body, damping));
+        EXPECT_LE(mechanicalEnergy(body), (1 + kMaxGain) * before * (1 + 1e-9)) << damping;
+        EXPECT_GT(mechanicalEnergy(body), .01 * before) << damping;  // it still swings
+    }
+}
+
+TEST(EnergyLimit, LeavesSlowSwingsAlone)
+{
+    for (const double speed : {0.0, 1e-6, .1, 1.0})
+    {
+        Body body = makeBar(1e9, isClamped);
+        bend(body, speed);
+        EXPECT_FALSE(stepOnce(body)) << speed;
+    }
+    Body soft = makeBar(1e6, isClamped);
+    bend(soft, 30);
+    EXPECT_FALSE(stepOnce(soft));
+}
+
+TEST(EnergyLimit, KeepsMomenta)
+{
+    Body body = makeBar(1e9);
+    body.m_loads.m_isHeld = true;
+    bend(body, 60);
+    const Vec3 linear = linearMomentum(body.m_state), angular = angularMomentum(body.m_state);
+    EXPECT_TRUE(stepOnce(body));
+    EXPECT_LT(norm(linearMomentum(body.m_state) - linear), 1e-12 * norm(linear));
+    EXPECT_LT(norm(angularMomentum(body.m_state) - angular), 1e-12 * norm(angular));
+}
+
+// The work of impulses and loads counts: a bar at rest may take it as kinetic energy.
+TEST(EnergyLimit, CountsTheWorkOfImpulsesAndLoads)
+{
+    for (const bool byLoads : {false, true})
+    {
+        Body body = makeBar(1e6, isClamped);
+        std::vector<Vec3> impulses(body.m_state.m_x.size());
+        for (std::size_t i = 0; i < impulses.size(); ++i)
+            impulses[i] = {0, 0, 5 * body.m_state.m_mass[i] * body.m_state.m_x[i].x};
+        for (std::size_t i = 0; i < impulses.size() && byLoads; ++i) body.m_loads.m_force[i] = 1 / kStep * impulses[i];
+        StepSettings settings;
+        settings.m_step = kStep;
+        solveFreeMotion(body, settings);
+        if (!byLoads) applyImpulses(body, impulses, settings);
+        StepEnd end = {&body, settings};
+        finishSteps(&end, 1);
+        EXPECT_FALSE(end.m_isShortened) << byLoads;
+        EXPECT_GT(mechanicalEnergy(body), 10) << byLoads;
+    }
+}
+
+// Moving pins do work that is not known.
+TEST(EnergyLimit, IsNotForMovingPins)
+{
+    Body body = makeBar(1e9, isClamped);
+    bend(body, 30);
+    for (Vec3& target : body.m_loads.m_targetVelocity) target = {0, 0, 1e-3};
+    EXPECT_FALSE(stepOnce(body));
+}
+
+}  // namespace
+}  // namespace bullet_fem
