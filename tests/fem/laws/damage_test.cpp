@@ -55,7 +55,8 @@ TEST(Damage, BarsBearTheStrengthAndDissipateTheFractureEnergyAtAnySize)
         Pull bar(size);
         bar.to(.5, 200000);
         EXPECT_NEAR(bar.m_peak / kStrength, 1, 1e-3) << size;
-        EXPECT_LT(bar.m_stress, .06 * kStrength);  // a thousandth of the stiffness is left, and its energy not dissipated
+        EXPECT_LT(bar.m_stress,
+                  .06 * kStrength);  // a thousandth of the stiffness is left, and its energy not dissipated
         const double left = 0.5 * bar.m_stress * bar.m_strain;
         EXPECT_NEAR((bar.m_work - left) * size / kFractureEnergy, 1, .06) << size;
     }
