@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Yield and relaxation with accurate bending: elastic strains, without plastic and relaxed strain, are averaged.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bullet_fem/fem/body/body_snapshot.h"
+#include "bullet_fem/fem/step/stress.h"
+#include "fem/scenes/stepping_scenes.h"
+#include "fem/solve/warped_system.h"
+#include "support/allocation_counter.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+constexpr double kSmoothedYoung = 1e6, kSmoothedYield = 1e3;  // [Pa]
+
+Material smoothedYielding(double hardening = 0)
+{
+    Material material = elasticMaterial(kSmoothedYoung, .3);
+    material.m_yieldStress = kSmoothedYield;
+    material.m_hardeningModulus = hardening;
+    material.m_accurateBending = true;
+    return material;
+}
+
+SymmetricTensor randomDeviator(RandomVectors& random, double size)
+{
+    const Vec3 a = random.next(), b = random.next();
+    return deviator({size * a.x, size * a.y, size * a.z, size * b.x, size * b.y, size * b.z});
+}
+
+TEST(SmoothedPlasticity, ForcesAreTheGradientOfTheEnergy)
+{
+    Material material = smoothedYielding();
+    material.m_relaxation[0] = {.3, 1};
+    material.m_relaxation[1] = {.2, 5};
+    Body body = makeBody(makeBox({1, .6, .5}, {2, 2, 2}, {}, CellSplit::kuhnSix), material);
+    RandomVectors random(4);
+    for (Vec3& x : body.m_state.m_x) x += .03 * random.next();
+    for (SymmetricTensor& strain : body.m_state.m_plasticStrain) strain = randomDeviator(random, .05);
+    for (SymmetricTensor& strain : body.m_state.m_relaxedStrain) strain = randomDeviator(random, .05);
+    body.m_state.m_initialStress.assign(body.m_state.m_plasticStrain.size(), {});
+    for (SymmetricTensor& stress : body.m_state.m_initialStress) stress = randomDeviator(random, 1e4);
+    StepSettings settings;
+    settings.m_tolerance = 1e-6;
+    const std::vector<Vec3> x = body.m_state.m_x, still(x.size());
+    std::vector<Vec3> f(x.size());
+    prepareWarpedSystem(body, settings, x, still, f);
+    double most = 0;
+    for (const Vec3& force : f) most = std::max(most, norm(force));
+    const double d = 1e-6;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            double energy[2];
+            for (const int side : {0, 1})
+            {
+                body.m_state.m_x = x;
+                body.m_state.m_x[i][axis] += side == 0 ? -d : d;
+                energy[side] = mechanicalEnergy(body);
+            }
+            EXPECT_NEAR(f[i][axis], -(energy[1] - energy[0]) / (2 * d), 1e-5 * most) << i << ", " << axis;
+        }
+}
+
+// Axial strain of a free bar in equilibrium under a nominal stress.
+class SmoothedBar
+{
+public:
+    explicit SmoothedBar(const Material& material)
+        : m_body(makeBody(makeBox({1, .25, .25}, {8, 2, 2}, {}, CellSplit::kuhnSix), material, {}, .05))
+    {
+        const TetMesh& mesh = m_body.m_model->mesh();
+        m_left = faceAreas(mesh, [](const Vec3& X) { return X.x < 1e-9; });
+        m_right = faceAreas(mesh, [](const Vec3& X) { return X.x > 1 - 1e-9; });
+    }
+
+    double pull(double stress, double tolerance = 1e-6)
+    {
+        StepSettings settings;
+        settings.m_step = .05;
+        settings.m_tolerance = tolerance;
+        for (int k = 0; k < 200; ++k)
+        {
+            for (std::size_t i = 0; i < m_left.size(); ++i)
+                m_body.m_loads.m_force[i] = {stress * (m_right[i] - m_left[i]), 0, 0};
+            std::fill(m_body.m_state.m_v.begin(), m_body.m_state.m_v.end(), Vec3());
+            bullet_fem::step(m_body, settings);
+        }
+        return (weightedMean(m_right, m_body.m_state.m_x) - weightedMean(m_left, m_body.m_state.m_x)).x - 1;
+    }
+
+    Body m_body;
+
+private:
+    std::vector<double> m_left, m_right;
+};
+
+TEST(SmoothedPlasticity, ABarHardensAndUnloadsAsTheFormulaSays)
+{
+    const double hardening = .25 * kSmoothedYoung, unit = kSmoothedYield / kSmoothedYoung;
+    for (const double tolerance : {1e-6, 1e-3})
+    {
+        SmoothedBar bar(smoothedYielding(hardening));
+        EXPECT_NEAR(bar.pull(.9 * kSmoothedYield, tolerance), .9 * unit, .02 * unit);
+        EXPECT_NEAR(bar.pull(1.5 * kSmoothedYield, tolerance), 1.5 * unit + .5 * kSmoothedYield / hardening,
+                    .03 * unit);
+        for (int e = 0; e < bar.m_body.m_model->mesh().tetCount(); ++e)
+            EXPECT_NEAR(vonMises(elementStress(bar.m_body, e)) / kSmoothedYield, 1.5, .01) << e;
+        EXPECT_NEAR(bar.pull(0, tolerance), .5 * kSmoothedYield / hardening, .03 * unit);
+    }
+}
+
+TEST(SmoothedPlasticity, ABarRelaxesAsTheFormulaSays)
+{
+    Material material = elasticMaterial(kSmoothedYoung, .3);
+    material.m_accurateBending = true;
+    material.m_relaxation[0] = {.4, 1};
+    SmoothedBar bar(material);
+    const double slow = bar.pull(1e3);  // ten relaxation times
+    EXPECT_NEAR(slow / (1e3 * material.slowCompliance({1, 0, 0})), 1, .01);
+}
+
+TEST(SmoothedPlasticity, StepsDoNotAllocateAndAreTheSameFromSavedStates)
+{
+    SmoothedBar bar(smoothedYielding(1e5));
+    bar.pull(1.5 * kSmoothedYield, 1e-3);
+    const BodySnapshot saved = snapshotOf(bar.m_body);
+    Body other(bar.m_body.m_model);
+    other.m_loads = bar.m_body.m_loads;
+    restore(saved, other);
+    StepSettings settings;
+    settings.m_step = .05;
+    const AllocationCounter counter;
+    bullet_fem::step(bar.m_body, settings);
+    EXPECT_EQ(counter.count(), 0);
+    bullet_fem::step(other, settings);
+    EXPECT_EQ(largestDistance(bar.m_body.m_state.m_x, other.m_state.m_x), 0);
+    EXPECT_EQ(bar.m_body.m_state.m_equivalentPlasticStrain, other.m_state.m_equivalentPlasticStrain);
+}
+
+}  // namespace
+}  // namespace bullet_fem
