@@ -25,7 +25,7 @@ Body makeBar(double young, const NodePredicate& fixed = {})
 }
 
 // Gives free nodes the velocity z of a bending bar with an end that moves at `speed` [m/s].
-void bend(Body& body, double speed)
+void giveBendingVelocity(Body& body, double speed)
 {
     for (std::size_t i = 0; i < body.m_state.m_x.size(); ++i)
     {
@@ -56,7 +56,7 @@ TEST(EnergyLimit, BoundsTheGainOfAFastSwing)
     for (const double damping : {0.0, 1.0})
     {
         Body body = makeBar(1e9, isClamped);
-        bend(body, 30);
+        giveBendingVelocity(body, 30);
         const double before = mechanicalEnergy(body);
         EXPECT_TRUE(stepOnce(body, damping));
         EXPECT_LE(mechanicalEnergy(body), (1 + kMaxGain) * before * (1 + 1e-9)) << damping;
@@ -69,11 +69,11 @@ TEST(EnergyLimit, LeavesSlowSwingsAlone)
     for (const double speed : {0.0, 1e-6, .1, 1.0})
     {
         Body body = makeBar(1e9, isClamped);
-        bend(body, speed);
+        giveBendingVelocity(body, speed);
         EXPECT_FALSE(stepOnce(body)) << speed;
     }
     Body soft = makeBar(1e6, isClamped);
-    bend(soft, 30);
+    giveBendingVelocity(soft, 30);
     EXPECT_FALSE(stepOnce(soft));
 }
 
@@ -81,7 +81,7 @@ TEST(EnergyLimit, KeepsMomenta)
 {
     Body body = makeBar(1e9);
     body.m_loads.m_isHeld = true;
-    bend(body, 60);
+    giveBendingVelocity(body, 60);
     const Vec3 linear = linearMomentum(body.m_state), angular = angularMomentum(body.m_state);
     EXPECT_TRUE(stepOnce(body));
     EXPECT_LT(norm(linearMomentum(body.m_state) - linear), 1e-12 * norm(linear));
@@ -113,7 +113,7 @@ TEST(EnergyLimit, CountsTheWorkOfImpulsesAndLoads)
 TEST(EnergyLimit, IsNotForMovingPins)
 {
     Body body = makeBar(1e9, isClamped);
-    bend(body, 30);
+    giveBendingVelocity(body, 30);
     for (Vec3& target : body.m_loads.m_targetVelocity) target = {0, 0, 1e-3};
     EXPECT_FALSE(stepOnce(body));
 }
