@@ -66,6 +66,7 @@ struct StepScratch
     /// Movable components turn exactly; false for bodies in contact or held (StepLoads::m_leastDamping), whose nodes
     /// move along chords, as their contacts and joints expect.
     bool m_isTurned = true;
+    bool m_isJoined = false;           ///< joints act on the body in this step: see findChange()
     std::vector<Vec3> m_drift;         ///< the nodes move with theta m_velocity + m_drift [m/s]; see noteMeanVelocity()
     std::vector<Vec3> m_meanVelocity;  ///< mean velocities in the free motion [m/s]
     std::vector<Vec3> m_push;          ///< velocities of the position correction: they displace but are not kept [m/s]

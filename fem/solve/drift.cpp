@@ -60,6 +60,7 @@ void beginDrift(Body& body, const StepSettings& settings)
     scratch.m_isStrained = !body.m_loads.m_priorVelocity.empty();
     if (scratch.m_isStrained) takeOutsideChange(body, settings.m_step, v);
     scratch.m_isTurned = !body.m_loads.m_isHeld;
+    scratch.m_isJoined = false;
     scratch.m_led.find(body.m_model->mesh(), s, body.m_loads, settings.m_step);
     std::vector<Vec3>& end = scratch.m_velocity;
     for (std::size_t i = 0; i < v.size(); ++i) end[i] = s.m_fixed[i] ? body.m_loads.m_targetVelocity[i] : v[i];

@@ -44,8 +44,8 @@ double noise(const Body& body, const StepSettings& settings)
 bool findChange(Body& body, const StepSettings& settings)
 {
     const StepCoefficients coefficients(settings, body);
-    if (!(coefficients.smoothing() > 0)) return false;
     StepScratch& scratch = body.m_workspace.scratch();
+    if (!(coefficients.smoothing() > 0) || scratch.m_isJoined) return false;
     std::vector<Vec3>& d = scratch.m_increment;
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = scratch.m_velocity[i] - scratch.m_kickVelocity[i];
     addInward(body, -settings.m_step, d);

@@ -26,6 +26,14 @@ int firstCornerFeature(const FemSoftBody& fem)
     return topology.vertexCount() + 2 * (topology.edgeCount() + topology.triangleCount());
 }
 
+bool isFixedPoint(const FemSoftBody& fem, const ContactTarget& target, int feature)
+{
+    const int vertexCount = fem.m_surface.topology().vertexCount();
+    if (feature < vertexCount) return true;
+    if (target.m_kind == TargetKind::sheets || feature >= firstCornerFeature(fem)) return false;
+    return (feature - vertexCount) % 2 == 0;
+}
+
 Triangle cornersOf(const FemSoftBody& fem, const ContactTarget& target, int feature)
 {
     const SurfaceTopology& topology = fem.m_surface.topology();

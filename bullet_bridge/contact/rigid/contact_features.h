@@ -16,6 +16,9 @@ int firstCornerFeature(const FemSoftBody& fem);
 /// The corners of a feature, the first repeated for nodes and edges; see ContactOrigin::m_feature.
 Triangle cornersOf(const FemSoftBody& fem, const ContactTarget& target, int feature);
 
+/// True if the contact point stays on the surface: a vertex, a midpoint or a centroid, not a nearest point.
+bool isFixedPoint(const FemSoftBody& fem, const ContactTarget& target, int feature);
+
 /// True if both nodes lie over one flat face of the shape: their normals agree, so their contacts suffice.
 bool areOverOneFace(const FemSoftBody& fem, int a, int b);
 

@@ -7,9 +7,8 @@
 #include <optional>
 
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
-#include "BulletCollision/CollisionShapes/btCollisionShape.h"
-#include "BulletCollision/CollisionShapes/btSphereShape.h"
 #include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/geometry/shapes/rolling_curvature.h"
 #include "bullet_bridge/joints/soft_joints.h"
 
 namespace bullet_fem
@@ -20,14 +19,6 @@ namespace
 constexpr double kSlop = 5e-5;         // permitted penetration over the body's size, for objects that cannot move [-]
 constexpr double kMovableSlop = 1e-4;  // and for movable objects: position corrections cost angular momentum [-]
 
-// Curvature of a shape [1/m]: that of a sphere; 0 for all other shapes.
-double curvatureOf(const ShapeLeaf& leaf)
-{
-    if (leaf.m_shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE) return 0;
-    const double radius = static_cast<const btSphereShape*>(leaf.m_shape)->getRadius();
-    return radius > 0 ? 1 / radius : 0;
-}
-
 // Correction of the gap for rotation [m]: a point of a rotating object moves along an arc, so it comes closer than its
 // velocity predicts.
 double closedByArc(const RigidProxy& motion, const Vec3& point, const Vec3& normal, double step)
@@ -36,7 +27,41 @@ double closedByArc(const RigidProxy& motion, const Vec3& point, const Vec3& norm
     return 0.5 * dot(normal, cross(turn, cross(turn, point - motion.m_center)));
 }
 
+// The part of a displacement that the nearest point of an edge or triangle follows: along the edge that it is on, or in
+// the triangle.
+Vec3 alongFeature(const FemSoftBody& fem, const Triangle& nodes, const FeatureWeights& weights, const Vec3& way)
+{
+    int inner[3], count = 0;
+    for (int a = 0; a < 3; ++a)
+        if (weights[a] > 0) inner[count++] = nodes[a];
+    if (count == 3) return way;
+    if (count < 2) return {};
+    const Vec3 edge = fem.surfacePosition()[inner[1]] - fem.surfacePosition()[inner[0]];
+    const double square = dot(edge, edge);
+    return square > 0 ? (dot(way, edge) / square) * edge : Vec3();
+}
+
+// Offset to the patch of a contact at any feature. Flat objects have no nearest points of their own on edges and
+// triangles: these move with the patch.
+Vec3 patchOfFeature(const SearchScope& scope, const ContactTarget& target, int feature, const PatchPoint& point)
+{
+    const FemSoftBody& fem = scope.fem();
+    if (!(point.m_curvature > 0) && feature >= fem.m_surface.topology().vertexCount()) return {};
+    const Vec3 patch = patchOf(scope, target, point, target.m_step);
+    if (isFixedPoint(fem, target, feature)) return patch;
+    return patch - alongFeature(fem, point.m_nodes, point.m_weights, patch);
+}
+
 }  // namespace
+
+PatchPoint::PatchPoint(const ContactTarget& target, const Triangle& nodes, const FeatureWeights& weights,
+                       const Vec3& normal)
+    : m_nodes(nodes),
+      m_weights(weights),
+      m_normal(normal),
+      m_curvature(rollingCurvature(*target.m_shape, normal, target.m_motion->m_angularVelocity))
+{
+}
 
 void ContactList::clear()
 {
@@ -86,8 +111,7 @@ ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& t
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_rigidProxy = target.m_rigidProxy;
     contact.m_approach = target.m_moved;
-    if (feature < fem.m_surface.topology().vertexCount())
-        contact.m_patch = patchOf(scope, target, feature, d.m_normal, target.m_step);
+    contact.m_patch = patchOfFeature(scope, target, feature, {target, nodes, d.m_barycentric, d.m_normal});
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap;
     if (target.m_object->isKinematicObject())
@@ -104,21 +128,27 @@ ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& t
     return &m_points.back();
 }
 
-Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, int node, const Vec3& normal, double time)
+Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, const PatchPoint& point, double time)
 {
     const FemSoftBody& fem = scope.fem();
-    const Vec3& x = fem.surfacePosition()[node];
+    const SurfacePoint at = fem.pointOn(scope.m_bodyIndex, point.m_nodes, point.m_weights);
+    ContactPatchSide soft = {at.of(fem.m_body.m_state.m_v), fem.m_search.m_meanMotion.m_spin, 0, scope.m_size,
+                             std::nullopt};
+    const SurfaceCurvature& curvature = fem.m_surface.curvature();
+    for (int a = 0; a < 3; ++a)
+    {
+        soft.m_curvature += point.m_weights[a] * curvature.m_largest[point.m_nodes[a]];
+        if (curvature.m_hasFewFacets[point.m_nodes[a]]) soft.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
+    }
+    soft.m_curvature = roundness(soft.m_curvature, scope.m_size);
     const double infinite = std::numeric_limits<double>::infinity();
     const bool canMove = !target.m_object->isStaticOrKinematicObject();
-    const SurfacePoint point = fem.pointOn(scope.m_bodyIndex, {node, node, node}, {1, 0, 0});
-    ContactPatchSide soft = {point.of(fem.m_body.m_state.m_v), fem.m_search.m_meanMotion.m_spin,
-                             roundness(fem.m_surface.curvature().m_largest[node], scope.m_size), scope.m_size,
-                             std::nullopt};
-    if (fem.m_surface.curvature().m_hasFewFacets[node]) soft.m_ofMass = fem.m_search.m_meanMotion.m_velocity;
+    const RigidProxy& motion = *target.m_motion;
     const ContactPatchSide rigid = {
-        target.m_motion->velocityAt(x), target.m_motion->m_angularVelocity, curvatureOf(*target.m_shape),
+        motion.velocityAt(interpolated(fem.surfacePosition(), point.m_nodes, point.m_weights)),
+        motion.m_angularVelocity, point.m_curvature,
         canMove ? norm(target.m_shape->m_boundsMax - target.m_shape->m_boundsMin) : infinite, std::nullopt};
-    return patchLag(soft, rigid, normal, time);
+    return patchLag(soft, rigid, point.m_normal, time);
 }
 
 }  // namespace bullet_fem

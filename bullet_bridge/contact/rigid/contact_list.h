@@ -44,8 +44,18 @@ private:
     std::vector<FeatureWeights> m_weights;
 };
 
-/// Offset from a node's contact point to the contact patch after `time` [m]. Nearest points of edges and triangles move
-/// with the patch and have none.
-Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, int node, const Vec3& normal, double time);
+/// A point of a feature of the surface, and the object there.
+struct PatchPoint
+{
+    PatchPoint(const ContactTarget& target, const Triangle& nodes, const FeatureWeights& weights, const Vec3& normal);
+
+    const Triangle m_nodes;
+    const FeatureWeights m_weights;
+    const Vec3 m_normal;
+    const double m_curvature;  ///< of the object where it rolls, else 0 [1/m]
+};
+
+/// Offset from a contact point that stays on the surface to the contact patch after `time` [m].
+Vec3 patchOf(const SearchScope& scope, const ContactTarget& target, const PatchPoint& point, double time);
 
 }  // namespace bullet_fem

@@ -86,10 +86,12 @@ void setLevers(const SearchScope& scope, const ContactTarget& target, int featur
 {
     const FemSoftBody& fem = scope.fem();
     const bool isNode = feature < fem.m_surface.topology().vertexCount();
-    if (isNode) contact.m_patch = patchOf(scope, target, feature, contact.m_normal, met.m_time);
-    if (isNode && contact.m_gap < kRollingGap * scope.m_size &&
-        roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0)
-        return;
+    const PatchPoint point(target, {feature, feature, feature}, {1, 0, 0}, contact.m_normal);
+    const bool rolls =
+        point.m_curvature > 0 || (isNode && roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0);
+    if (isNode) contact.m_patch = patchOf(scope, target, point, met.m_time);
+    if (rolls && contact.m_gap < kRollingGap * scope.m_size) return;
+    if (!isNode) contact.m_patch = {};
     contact.m_isMetLater = true;
     contact.m_approach += met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
 }

@@ -222,6 +222,7 @@ ConstraintSide ContactRows::jointEnd(const JointEnd& joint, bool actsAtStart, in
         end.m_jacobian = joint.m_jacobian;
         return end;
     }
+    m_problem->m_bodies[joint.m_body].m_body->m_workspace.scratch().m_isJoined = true;
     if (number >= 0)
     {
         SurfacePoint point;
