@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import typing
 from concurrent.futures import Executor
-from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,7 +15,7 @@ _STEP = 1e-3  # relative change of a parameter for its derivative: above the tol
 _HALVINGS = 5  # of a step that does not lower the error
 
 
-def map(function: Callable[[Any], Any], items: Iterable[Any], executor: Optional[Executor] = None) -> List[Any]:
+def map(function: Callable[[Any], Any], items: typing.Iterable[Any], executor: Optional[Executor] = None) -> List[Any]:
     """function(item) for each item, in order, by the workers of any concurrent.futures executor; here without one.
 
     Worlds of bulletfem.make() and World.from_scene() can be items and results: they go on with equal bits elsewhere.
