@@ -37,7 +37,7 @@ double numberOf(std::string_view word, const UrdfRange& range)
 
 }  // namespace
 
-void failAt(const XMLElement& where, const std::string& what)
+void failInUrdf(const XMLElement& where, const std::string& what)
 {
     throw std::runtime_error(message("line ", where.GetLineNum(), ", <", where.Name(), ">: ", what));
 }
@@ -45,7 +45,7 @@ void failAt(const XMLElement& where, const std::string& what)
 const char* attributeOf(const XMLElement& element, const char* name)
 {
     const char* text = element.Attribute(name);
-    if (!text) failAt(element, message("the attribute '", name, "' is missing"));
+    if (!text) failInUrdf(element, message("the attribute '", name, "' is missing"));
     return text;
 }
 
@@ -61,7 +61,7 @@ void numbersIn(const XMLElement& element, const char* attribute, const UrdfRange
     }
     if (good && takeWord(rest).empty()) return;
     const std::string expected = count == 1 ? range.m_says : message(count, " numbers, each ", range.m_says);
-    failAt(element, message(attribute, " is '", printable(text), "'; it must be ", expected));
+    failInUrdf(element, message(attribute, " is '", printable(text), "'; it must be ", expected));
 }
 
 double numberIn(const XMLElement& element, const char* attribute, const UrdfRange& range)
@@ -87,8 +87,8 @@ std::string findMesh(const XMLElement& element, const std::filesystem::path& urd
         const std::filesystem::path candidate = folder / name;  // the name itself if it is absolute
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate.lexically_normal().string();
     }
-    failAt(element,
-           "the file '" + given + "' is neither beside the URDF file nor in the four folders above; put it there");
+    failInUrdf(element,
+               "the file '" + given + "' is neither beside the URDF file nor in the four folders above; put it there");
 }
 
 }  // namespace bullet_fem

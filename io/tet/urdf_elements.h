@@ -28,7 +28,7 @@ constexpr UrdfRange kPositive = {0, true, "a number above 0"};
 constexpr UrdfRange kNotNegative = {0, false, "a number of at least 0"};
 constexpr UrdfRange kFinite = {-std::numeric_limits<double>::max(), false, "a finite number"};
 
-[[noreturn]] void failAt(const tinyxml2::XMLElement& where, const std::string& what);
+[[noreturn]] void failInUrdf(const tinyxml2::XMLElement& where, const std::string& what);
 const char* attributeOf(const tinyxml2::XMLElement& element, const char* name);
 
 /// `count` numbers of an attribute.

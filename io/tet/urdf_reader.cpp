@@ -12,9 +12,9 @@ using tinyxml2::XMLElement;
 double massOf(const XMLElement& block)
 {
     const XMLElement* inertial = block.FirstChildElement("inertial");
-    if (!inertial) failAt(block, "an <inertial> with a <mass> is missing");
+    if (!inertial) failInUrdf(block, "an <inertial> with a <mass> is missing");
     const XMLElement* mass = inertial->FirstChildElement("mass");
-    if (!mass) failAt(*inertial, "a <mass> is missing");
+    if (!mass) failInUrdf(*inertial, "a <mass> is missing");
     return numberIn(*mass, "value", kPositive);
 }
 
@@ -33,7 +33,7 @@ void addLaw(const XMLElement& law, UrdfDeformable& result)
 void findMeshes(const XMLElement& block, const std::filesystem::path& urdf, UrdfDeformable& result)
 {
     const XMLElement *visual = block.FirstChildElement("visual"), *collision = block.FirstChildElement("collision");
-    if (!visual && !collision) failAt(block, "a <visual filename=\"...\"/> that names the mesh is missing");
+    if (!visual && !collision) failInUrdf(block, "a <visual filename=\"...\"/> that names the mesh is missing");
     if (visual) result.m_visualPath = findMesh(*visual, urdf);
     result.m_meshPath = collision ? findMesh(*collision, urdf) : result.m_visualPath;
     if (result.m_visualPath == result.m_meshPath) result.m_visualPath.clear();
@@ -57,16 +57,15 @@ UrdfDeformable readDeformable(const XMLElement& block, const std::filesystem::pa
 
 UrdfDeformable readUrdfDeformable(const std::string& path)
 {
-    return readUrdf(path,
-                    [&path](const XMLElement& robot)
-                    {
-                        if (const XMLElement* block = robot.FirstChildElement("deformable"))
-                            return readDeformable(*block, path);
-                        if (const XMLElement* reduced = robot.FirstChildElement("reduced_deformable"))
-                            failAt(*reduced,
-                                   "reduced bodies are not made; write a <deformable> with its moduli and its mesh");
-                        failAt(robot, "there is no <deformable> in it; rigid links are for readUrdfRobot");
-                    });
+    return readUrdf(
+        path,
+        [&path](const XMLElement& robot)
+        {
+            if (const XMLElement* block = robot.FirstChildElement("deformable")) return readDeformable(*block, path);
+            if (const XMLElement* reduced = robot.FirstChildElement("reduced_deformable"))
+                failInUrdf(*reduced, "reduced bodies are not made; write a <deformable> with its moduli and its mesh");
+            failInUrdf(robot, "there is no <deformable> in it; rigid links are for readUrdfRobot");
+        });
 }
 
 }  // namespace bullet_fem

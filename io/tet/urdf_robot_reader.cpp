@@ -13,19 +13,19 @@ namespace bullet_fem
 namespace
 {
 
-using Element = tinyxml2::XMLElement;
+using tinyxml2::XMLElement;
 
-Vec3 vectorIn(const Element& element, const char* attribute, const UrdfRange& range)
+Vec3 vectorIn(const XMLElement& element, const char* attribute, const UrdfRange& range)
 {
     double v[3];
     numbersIn(element, attribute, range, v, 3);
     return {v[0], v[1], v[2]};
 }
 
-UrdfPose poseIn(const Element& parent)
+UrdfPose poseIn(const XMLElement& parent)
 {
     UrdfPose pose;
-    const Element* origin = parent.FirstChildElement("origin");
+    const XMLElement* origin = parent.FirstChildElement("origin");
     if (!origin) return pose;
     if (origin->Attribute("xyz")) pose.m_position = vectorIn(*origin, "xyz", kFinite);
     if (origin->Attribute("rpy")) pose.m_turn = vectorIn(*origin, "rpy", kFinite);
@@ -38,36 +38,37 @@ class RobotReader
 public:
     explicit RobotReader(const std::string& path) : m_path(path) {}
 
-    UrdfRobot read(const Element& robot)
+    UrdfRobot read(const XMLElement& robot)
     {
         if (const char* name = robot.Attribute("name")) m_robot.m_name = name;
         noteOthers(robot, {"link", "joint", "deformable", "material"});
-        for (const Element* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
+        for (const XMLElement* link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
             readLink(*link);
-        if (m_robot.m_links.empty()) failAt(robot, "there is no <link> in it");
-        for (const Element* joint = robot.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint"))
+        if (m_robot.m_links.empty()) failInUrdf(robot, "there is no <link> in it");
+        for (const XMLElement* joint = robot.FirstChildElement("joint"); joint;
+             joint = joint->NextSiblingElement("joint"))
             readJoint(*joint);
         sort(robot);
-        for (const Element* soft = robot.FirstChildElement("deformable"); soft;
+        for (const XMLElement* soft = robot.FirstChildElement("deformable"); soft;
              soft = soft->NextSiblingElement("deformable"))
             readSoftPart(*soft);
         return std::move(m_robot);
     }
 
 private:
-    void noteOthers(const Element& parent, std::initializer_list<std::string_view> known)
+    void noteOthers(const XMLElement& parent, std::initializer_list<std::string_view> known)
     {
-        for (const Element* child = parent.FirstChildElement(); child; child = child->NextSiblingElement())
+        for (const XMLElement* child = parent.FirstChildElement(); child; child = child->NextSiblingElement())
             if (std::find(known.begin(), known.end(), child->Name()) == known.end())
                 m_robot.m_notes.push_back(message("line ", child->GetLineNum(), ": <", child->Name(), "> of <",
                                                   parent.Name(), "> is left out"));
     }
 
-    void readInertial(const Element& inertial, UrdfLink& link)
+    void readInertial(const XMLElement& inertial, UrdfLink& link)
     {
         link.m_inertial = poseIn(inertial);
         readValue(inertial, "mass", kNotNegative, link.m_mass);
-        const Element* inertia = inertial.FirstChildElement("inertia");
+        const XMLElement* inertia = inertial.FirstChildElement("inertia");
         if (!inertia) return;
         const char* names[] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
         for (std::size_t k = 0; k < 6; ++k)
@@ -78,7 +79,7 @@ private:
         }
     }
 
-    void readMesh(const Element& mesh, UrdfShape& shape)
+    void readMesh(const XMLElement& mesh, UrdfShape& shape)
     {
         shape.m_kind = UrdfShape::Kind::hull;
         shape.m_meshPath = findMesh(mesh, m_path);
@@ -86,13 +87,13 @@ private:
         if (mesh.Attribute("scale")) shape.m_size = vectorIn(mesh, "scale", kFinite);
     }
 
-    void readCollision(const Element& collision, UrdfLink& link)
+    void readCollision(const XMLElement& collision, UrdfLink& link)
     {
         UrdfShape shape;
         shape.m_pose = poseIn(collision);
-        const Element* geometry = collision.FirstChildElement("geometry");
-        const Element* element = geometry ? geometry->FirstChildElement() : nullptr;
-        if (!element) failAt(collision, "a <geometry> with a shape is missing");
+        const XMLElement* geometry = collision.FirstChildElement("geometry");
+        const XMLElement* element = geometry ? geometry->FirstChildElement() : nullptr;
+        if (!element) failInUrdf(collision, "a <geometry> with a shape is missing");
         const std::string_view name = element->Name();
         if (name == "box")
             shape.m_size = vectorIn(*element, "size", kPositive);
@@ -107,21 +108,21 @@ private:
             if (name != "sphere") shape.m_length = numberIn(*element, "length", kPositive);
         }
         else
-            failAt(*element, "it must be a <box>, <sphere>, <cylinder>, <capsule> or <mesh>");
+            failInUrdf(*element, "it must be a <box>, <sphere>, <cylinder>, <capsule> or <mesh>");
         link.m_collisions.push_back(std::move(shape));
     }
 
-    void readLink(const Element& element)
+    void readLink(const XMLElement& element)
     {
         UrdfLink link;
         link.m_name = attributeOf(element, "name");
-        if (indexOf(link.m_name) >= 0) failAt(element, message("there are two links '", link.m_name, "'"));
+        if (indexOf(link.m_name) >= 0) failInUrdf(element, message("there are two links '", link.m_name, "'"));
         noteOthers(element, {"inertial", "collision", "visual", "contact"});
-        if (const Element* inertial = element.FirstChildElement("inertial")) readInertial(*inertial, link);
-        for (const Element* collision = element.FirstChildElement("collision"); collision;
+        if (const XMLElement* inertial = element.FirstChildElement("inertial")) readInertial(*inertial, link);
+        for (const XMLElement* collision = element.FirstChildElement("collision"); collision;
              collision = collision->NextSiblingElement("collision"))
             readCollision(*collision, link);
-        if (const Element* contact = element.FirstChildElement("contact"))
+        if (const XMLElement* contact = element.FirstChildElement("contact"))
             readValue(*contact, "lateral_friction", kNotNegative, link.m_friction);
         m_robot.m_links.push_back(std::move(link));
     }
@@ -133,68 +134,68 @@ private:
         return -1;
     }
 
-    int linkOf(const Element& element, const char* attribute) const
+    int linkOf(const XMLElement& element, const char* attribute) const
     {
         const char* name = attributeOf(element, attribute);
         const int link = indexOf(name);
-        if (link < 0) failAt(element, message("there is no link '", name, "'"));
+        if (link < 0) failInUrdf(element, message("there is no link '", name, "'"));
         return link;
     }
 
-    static UrdfJoint::Kind kindOf(const Element& element)
+    static UrdfJoint::Kind kindOf(const XMLElement& element)
     {
         const std::string_view type = attributeOf(element, "type");
         if (type == "fixed") return UrdfJoint::Kind::fixed;
         if (type == "revolute") return UrdfJoint::Kind::revolute;
         if (type == "continuous") return UrdfJoint::Kind::continuous;
         if (type == "prismatic") return UrdfJoint::Kind::prismatic;
-        failAt(element, message("type is '", type, "'; it must be fixed, revolute, continuous or prismatic"));
+        failInUrdf(element, message("type is '", type, "'; it must be fixed, revolute, continuous or prismatic"));
     }
 
-    static void readLimit(const Element& limit, UrdfJoint& joint)
+    static void readLimit(const XMLElement& limit, UrdfJoint& joint)
     {
         if (joint.m_kind != UrdfJoint::Kind::continuous)
         {
             joint.m_lower = limit.Attribute("lower") ? numberIn(limit, "lower", kFinite) : 0;
             joint.m_upper = limit.Attribute("upper") ? numberIn(limit, "upper", kFinite) : 0;
             if (joint.m_lower > joint.m_upper)
-                failAt(limit, message("lower, ", joint.m_lower, ", is above upper, ", joint.m_upper));
+                failInUrdf(limit, message("lower, ", joint.m_lower, ", is above upper, ", joint.m_upper));
         }
         if (limit.Attribute("effort")) joint.m_effort = numberIn(limit, "effort", kNotNegative);
         if (limit.Attribute("velocity")) joint.m_velocity = numberIn(limit, "velocity", kNotNegative);
     }
 
-    void readJoint(const Element& element)
+    void readJoint(const XMLElement& element)
     {
         UrdfJoint joint;
         joint.m_name = attributeOf(element, "name");
         joint.m_kind = kindOf(element);
         joint.m_pose = poseIn(element);
         noteOthers(element, {"origin", "parent", "child", "axis", "limit", "dynamics"});
-        const Element *parent = element.FirstChildElement("parent"), *child = element.FirstChildElement("child");
-        if (!parent || !child) failAt(element, "a <parent link=\"...\"/> or <child link=\"...\"/> is missing");
+        const XMLElement *parent = element.FirstChildElement("parent"), *child = element.FirstChildElement("child");
+        if (!parent || !child) failInUrdf(element, "a <parent link=\"...\"/> or <child link=\"...\"/> is missing");
         joint.m_parent = linkOf(*parent, "link");
         joint.m_child = linkOf(*child, "link");
-        if (const Element* axis = element.FirstChildElement("axis"))
+        if (const XMLElement* axis = element.FirstChildElement("axis"))
         {
             const Vec3 v = vectorIn(*axis, "xyz", kFinite);
-            if (!(norm(v) > 0)) failAt(*axis, "xyz is 0; it must be a direction");
+            if (!(norm(v) > 0)) failInUrdf(*axis, "xyz is 0; it must be a direction");
             joint.m_axis = (1 / norm(v)) * v;
         }
-        const Element* limit = element.FirstChildElement("limit");
+        const XMLElement* limit = element.FirstChildElement("limit");
         const bool needsLimit = joint.m_kind == UrdfJoint::Kind::revolute || joint.m_kind == UrdfJoint::Kind::prismatic;
-        if (needsLimit && !limit) failAt(element, "a <limit> is missing; joints without one are continuous");
+        if (needsLimit && !limit) failInUrdf(element, "a <limit> is missing; joints without one are continuous");
         if (limit) readLimit(*limit, joint);
-        if (const Element* dynamics = element.FirstChildElement("dynamics"))
+        if (const XMLElement* dynamics = element.FirstChildElement("dynamics"))
             if (dynamics->Attribute("damping")) joint.m_damping = numberIn(*dynamics, "damping", kNotNegative);
         for (const UrdfJoint& other : m_robot.m_joints)
             if (other.m_child == joint.m_child || other.m_name == joint.m_name)
-                failAt(element, message("the joint '", other.m_name, "' has its name or its child, too"));
+                failInUrdf(element, message("the joint '", other.m_name, "' has its name or its child, too"));
         m_robot.m_joints.push_back(std::move(joint));
     }
 
     // Puts every link behind its parent, and joints in the order of their children.
-    void sort(const Element& robot)
+    void sort(const XMLElement& robot)
     {
         std::vector<UrdfJoint> joints;
         std::vector<int> order;  // old index of each link
@@ -203,7 +204,7 @@ private:
                              [k](const UrdfJoint& joint) { return joint.m_child == int(k); }))
                 order.push_back(int(k));
         if (order.size() != 1)
-            failAt(robot, message("it has ", order.size(), " links without a parent; it must have one, the base"));
+            failInUrdf(robot, message("it has ", order.size(), " links without a parent; it must have one, the base"));
         for (std::size_t k = 0; k < order.size(); ++k)
             for (const UrdfJoint& joint : m_robot.m_joints)
                 if (joint.m_parent == order[k])
@@ -213,19 +214,19 @@ private:
                     joints.back().m_child = int(order.size());
                     order.push_back(joint.m_child);
                 }
-        if (order.size() != m_robot.m_links.size()) failAt(robot, "its joints make a circle; links must be a tree");
+        if (order.size() != m_robot.m_links.size()) failInUrdf(robot, "its joints make a circle; links must be a tree");
         std::vector<UrdfLink> links;
         for (const int old : order) links.push_back(std::move(m_robot.m_links[std::size_t(old)]));
         m_robot.m_links = std::move(links);
         m_robot.m_joints = std::move(joints);
     }
 
-    void readSoftPart(const Element& element)
+    void readSoftPart(const XMLElement& element)
     {
         UrdfSoftPart part;
         part.m_body = readDeformable(element, m_path);
         part.m_pose = poseIn(element);
-        for (const Element* attach = element.FirstChildElement("attach"); attach;
+        for (const XMLElement* attach = element.FirstChildElement("attach"); attach;
              attach = attach->NextSiblingElement("attach"))
         {
             UrdfAttachment attachment;
@@ -247,7 +248,7 @@ private:
 
 UrdfRobot readUrdfRobot(const std::string& path)
 {
-    return readUrdf(path, [&path](const Element& robot) { return RobotReader(path).read(robot); });
+    return readUrdf(path, [&path](const XMLElement& robot) { return RobotReader(path).read(robot); });
 }
 
 }  // namespace bullet_fem

@@ -14,6 +14,7 @@ from ._core import (
     Material,
     Mesh,
     RigidBody,
+    Robot,
     Shape,
     SoftBody,
     StepReport,
@@ -25,6 +26,7 @@ from ._core import (
 )
 from ._batch import Batch
 from ._environment import SqueezeAndLift
+from ._fit import Fit, fit, map
 from ._png import png as _png
 from ._recipe import make, reduce as _reduce
 
@@ -41,10 +43,12 @@ __all__ = [
     "BakedBody",
     "Batch",
     "ElementMaterials",
+    "Fit",
     "Joint",
     "Material",
     "Mesh",
     "RigidBody",
+    "Robot",
     "Shape",
     "SoftBody",
     "SqueezeAndLift",
@@ -52,7 +56,9 @@ __all__ = [
     "World",
     "__version__",
     "contact_dtype",
+    "fit",
     "has_pictures",
     "make",
+    "map",
     "touch_dtype",
 ]

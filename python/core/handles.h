@@ -106,5 +106,6 @@ void bindBreaking(SoftClass& body, WorldClass& world);
 void bindRays(SoftClass& body, WorldClass& world);
 void bindPictures(WorldClass& world);
 void bindBatch(py::module_& module);
+void bindRobots(py::module_& module, WorldClass& world);
 
 }  // namespace bullet_fem::python

@@ -37,5 +37,6 @@ PYBIND11_MODULE(_core, module)
     bindRays(body, world);
     bindPictures(world);
     bindBatch(module);
+    bindRobots(module, world);
     module.attr("__name__") = "bulletfem._core";
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "python/core/robot.h"
 #include "tools/scene/scene_world.h"
 
 namespace bullet_fem::python
@@ -38,6 +39,7 @@ World::~World()
         (void)m_bullet.release();
         new BodyTable(std::move(m_bodies));
         new std::vector<JointEntry>(std::move(m_joints));
+        new std::vector<std::unique_ptr<Robot>>(std::move(m_robots));
         return;
     }
     for (std::size_t i = 0; i < m_joints.size(); ++i) removeJoint(int(i));
@@ -46,6 +48,7 @@ World::~World()
         if (body.m_soft && body.m_soft->m_own) m_bullet->remove(*body.m_soft->m_body);
         if (body.m_rigid && body.m_rigid->m_own) m_bullet->world().removeRigidBody(body.m_rigid->m_body);
     }
+    m_robots.clear();
     m_bullet.reset();  // before the bodies and their shapes
 }
 
@@ -140,6 +143,12 @@ void World::setGravity(const btVector3& gravity)
         if (body.m_soft) body.m_soft->m_body->activate();
         if (body.m_rigid) body.m_rigid->m_body->activate();
     }
+}
+
+void World::step()
+{
+    for (const auto& robot : m_robots) robot->addDamping();
+    m_bullet->step(m_step);
 }
 
 void World::finishStep()

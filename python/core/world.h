@@ -15,6 +15,8 @@
 namespace bullet_fem::python
 {
 
+class Robot;
+
 /// A joint of rigid bodies.
 struct JointEntry
 {
@@ -51,11 +53,12 @@ public:
     double stepSize() const { return m_step; }
     long steps() const { return m_steps; }
     /// One step, without Python's lock.
-    void step() { m_bullet->step(m_step); }
+    void step();
     /// To be called after each step.
     void finishStep();
 
 private:
+    friend struct WorldRobots;
     friend struct WorldState;
     void registerScene();
 
@@ -66,6 +69,7 @@ private:
     BodyTable m_bodies;
     std::vector<JointEntry> m_joints;
     StepGuard m_guard;
+    std::vector<std::unique_ptr<Robot>> m_robots;
 };
 
 }  // namespace bullet_fem::python
