@@ -17,6 +17,8 @@ namespace bullet_fem
 namespace
 {
 
+constexpr int kUsualImpacts = 4;  // of a body at once; more allocate memory, once
+
 // Comparing all matrices takes a tenth of a step's time. Bullet zeroes the unused fourth component of a row when it
 // sets a matrix, and initializeDmInverse sets all matrices. A value stored there is thus lost when it is called.
 constexpr btScalar kSeen = 1;
@@ -68,6 +70,7 @@ void FemSoftBody::sizeScratch()
     m_memory.m_contacts.clear();
     m_memory.m_origins.clear();
     m_memory.m_impacts.clear();
+    m_memory.m_impacts.reserve(kUsualImpacts);
     m_memory.m_place = NotedPlace(m_surface.topology().vertices());
 }
 

@@ -45,7 +45,10 @@ void ImpactPatches::findMeeting(const ImpactScene& scene, double least)
     m_isMeeting.assign(scene.m_bodies.size(), 0);
     if (!m_isElastic) return;
     for (std::size_t b = 0; b < scene.m_bodies.size(); ++b)
+    {
         m_isMeeting[b] = !scene.m_bodies[b]->m_memory.m_impacts.empty();
+        m_impulses.reserve(scene.m_bodies[b]->m_body.m_state.m_x.size());
+    }
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         if (m_isMeeting[c.m_soft.m_body] || !(dot(c.m_impulse, c.m_normal) > 0) || !isPairOf(scene, c)) continue;

@@ -48,7 +48,7 @@ class ImpactPatches
 {
 public:
     /// `isElastic`: bodies without a coefficient of restitution rebound, too.
-    explicit ImpactPatches(bool isElastic) : m_isElastic(isElastic) {}
+    explicit ImpactPatches(bool isElastic) : m_isElastic(isElastic) { m_patches.reserve(kUsualPatches); }
 
     bool isElastic() const { return m_isElastic; }
 
@@ -62,6 +62,8 @@ public:
     double elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact);
 
 private:
+    static constexpr int kUsualPatches = 64;  // more allocate memory, once
+
     static ImpactPatch patchOf(const ImpactScene& scene, const ContactPoint& contact);
     void findMeeting(const ImpactScene& scene, double least);
     bool addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, bool isHeld, PatchResponse& response);

@@ -30,6 +30,9 @@ constexpr double kPatience = 2;
 // The restitution by elasticity is found anew when the patch is pressed harder by this factor [-].
 constexpr double kHarder = 1.2;
 
+// Smallest cosine between the normal and the line of two centres that counts as central: 30 degrees [-].
+constexpr double kCentral = 0.87;
+
 // Smallest cosine between a support's normal and the direction that it holds against: 60 degrees [-].
 constexpr double kHolds = 0.5;
 
@@ -62,6 +65,13 @@ void setMotion(const LinkMotion& motion, RigidProxy& proxy)
 }
 
 }  // namespace
+
+// Reserves memory for the usual pair, as a step does not allocate.
+Rebounds::Rebounds(bool isElastic) : m_patches(isElastic)
+{
+    m_problem.m_rigidProxies.reserve(2);
+    m_problem.m_contacts.reserve(1);
+}
 
 void Rebounds::note(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies, const RigidProxies& rigid,
                     double step, double least)
@@ -255,6 +265,19 @@ Vec3 Rebounds::patchVelocity() const
     return count > 0 ? (1.0 / count) * sum : sum;
 }
 
+// Of two bodies that meet along the line of their centres, the normal turns with that line, as with balls.
+void Rebounds::turnNormal(Impact& impact, double step) const
+{
+    const RigidProxy &body = m_problem.m_rigidProxies[kBody], &other = m_problem.m_rigidProxies[kOther];
+    if (!body.canMove() || !other.canMove()) return;
+    const Vec3 line = body.m_center - other.m_center;
+    const double squared = dot(line, line);
+    if (!(dot(line, impact.m_normal) > kCentral * std::sqrt(squared))) return;
+    const Vec3 turn = (step / squared) * cross(line, body.m_linearVelocity - other.m_linearVelocity);
+    const Vec3 turned = impact.m_normal + cross(turn, impact.m_normal);
+    impact.m_normal = (1 / norm(turned)) * turned;
+}
+
 // Follows an impact; true if it is over. After the body has been stopped, energy that is still in its elasticity may
 // return for kPatience times the stopping time.
 bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, RigidProxies& rigid, double step)
@@ -268,6 +291,7 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
     impact.m_speed = speed;
     impact.m_time += step;
     impact.m_point += step * patchVelocity();
+    turnNormal(impact, step);
     const bool isDriven = impact.m_isPressed && !(gain < kSpent * impact.m_gain);
     if (isDriven || !(speed > -kStopped * impact.m_approach)) return !impact.m_isNear;
     if (impact.m_stopTime == 0) impact.m_stopTime = impact.m_time;

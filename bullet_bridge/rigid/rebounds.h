@@ -27,7 +27,7 @@ class Rebounds
 {
 public:
     /// `isElastic`: bodies without a coefficient of restitution rebound by their elasticity.
-    explicit Rebounds(bool isElastic) : m_patches(isElastic) {}
+    explicit Rebounds(bool isElastic);
 
     /// Call after contact is solved, before its impulses are applied. Notes impacts that begin with an approach faster
     /// than `least` [m/s], and those that still last. `bodies` are those of the problem; `rigid` has its rigid proxies;
@@ -67,6 +67,7 @@ private:
     Other otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
                   WorldObjects& world) const;
     Vec3 patchVelocity() const;
+    void turnNormal(Impact& impact, double step) const;
     bool follow(FemSoftBody& fem, Impact& impact, const Other& other, RigidProxies& rigid, double step);
     void setPair(const FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step);
     bool part(FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step);
