@@ -46,8 +46,7 @@ public:
         return false;
     }
 
-    // True if the chords of this step cannot stretch elements enough: a displacement gradient s gives a strain of at
-    // most s^2 / 2.
+    // True if the chords of this step cannot stretch elements enough.
     bool isGentle()
     {
         findLoadEnergy();
@@ -95,14 +94,23 @@ private:
             if (!m_state.m_fixed[i]) m_ofLoads += 0.5 * m_step * m_step / m_state.m_mass[i] * dot(force[i], force[i]);
     }
 
+    // A displacement gradient s gives an element of stiffness K = (2 mu + lambda) V at most the energy K s^4 / 8.
+    // Either s is that of the fastest node everywhere, or that of each node in the elements around it, four per
+    // element.
     bool isGentle(const Vec3& rigid)
     {
-        double most = 0;
-        for (const Vec3& v : elastic()) most = std::max(most, dot(v - rigid, v - rigid));
-        const double gradient = 2 * m_step * std::sqrt(most) / m_body.m_model->mesh().shortestHeight();
-        const double strain = 0.5 * gradient * gradient;
-        const double stretched = 0.5 * m_scratch.m_elasticEnergy.m_stiffness * strain * strain;
-        return stretched <= kMaxEnergyGain * (m_kinetic + m_ofLoads);
+        double mass = 0, most = 0, sum = 0;  // sum of m |v|^4
+        for (std::size_t i = 0; i < m_state.m_mass.size(); ++i)
+        {
+            const Vec3 v = elastic()[i] - rigid;
+            const double square = dot(v, v);
+            most = std::max(most, square);
+            mass += m_state.m_mass[i];
+            sum += m_state.m_mass[i] * square * square;
+        }
+        const double perSpeed = 2 * m_step / m_body.m_model->mesh().shortestHeight();
+        const double fourth = std::pow(perSpeed, 4) * std::min(most * most, 4 / mass * sum);
+        return m_scratch.m_elasticEnergy.m_stiffness / 8 * fourth <= kMaxEnergyGain * (m_kinetic + m_ofLoads);
     }
 
     // The gain of energy with a share of the elastic motion, over the accepted one.
