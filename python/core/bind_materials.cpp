@@ -153,6 +153,14 @@ void setLawConstants(Material& material, const std::map<std::string, double>& va
     material.m_lawConstants = constants;
 }
 
+// The constants become those of the law by default.
+void setLaw(Material& material, ElasticLaw law)
+{
+    if (law == material.m_law) return;
+    material.m_law = law;
+    setLawConstants(material, {});
+}
+
 template <class Class>
 void addChoices(Class& material)
 {
@@ -166,7 +174,7 @@ void addChoices(Class& material)
             "Whether patches of elements share one volume change, against locking: 'automatic', 'on' or 'off'.")
         .def_property(
             "law", [](const Material& self) { return pythonName(nameOf(self.m_law)); },
-            [](Material& self, const std::string& text) { self.m_law = lawOfPythonName(text); },
+            [](Material& self, const std::string& text) { setLaw(self, lawOfPythonName(text)); },
             "Constitutive law: 'hooke', 'neo_hooke', 'orthotropic' or another of docs/materials.md.")
         .def_property("law_constants", &lawConstantsOf, &setLawConstants,
                       "Constants of laws with constants of their own by name, a dict; set the law before them.")

@@ -92,6 +92,16 @@ def test_elastomers_have_hardness_and_loss_factor():
         rubber.set_loss_factor(-1, 5)
 
 
+def test_laws_have_constants():
+    rubber = bf.Material(law="ogden", law_constants={"mu1": 5e5, "alpha1": 2})
+    assert rubber.law == "ogden" and rubber.law_constants["mu1"] == 5e5 and rubber.law_constants["alpha2"] == 5
+    assert bf.Material(law="neo_hooke").law_constants == {}
+    with pytest.raises(ValueError, match="no constant of the law ogden"):
+        rubber.law_constants = {"nu": 1}
+    with pytest.raises(ValueError, match="law is 'treacle': it must be one of hooke, neo_hooke"):
+        bf.Material(law="treacle")
+
+
 def test_materials_have_values():
     material = bf.Material(young_modulus=2e6, poisson_ratio=0.45, law="neo_hooke", relaxation=())
     assert material.young_modulus == 2e6 and material.law == "neo_hooke" and material.mean_dilatation == "automatic"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bullet_fem/fem/laws/law_table.h"
 #include "bullet_fem/fem/mesh/elastomer.h"
 #include "tools/scene/scene_world.h"
 #include "tools/scene_samples.h"
@@ -246,6 +247,41 @@ TEST_F(SceneReader, ReadsHardnessAndLossFactor)
     EXPECT_NEAR(lossFactor(given, 5), 0.3, 1e-12);
     EXPECT_EQ(given.m_massDamping, 1);
     EXPECT_EQ(materialOf(given).m_stiffnessDamping, btScalar(given.m_stiffnessDamping));
+}
+
+TEST_F(SceneReader, ReadsLawsAndTheirConstants)
+{
+    const auto scene = [](const std::string& members)
+    { return R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + members + "} }] }"; };
+    const auto material = [&](const std::string& members) { return parse(scene(members)).m_softBodies[0].m_material; };
+    const Material rubber =
+        material(R"("law": "ogden", "poisson": 0.45, "lawConstants": { "mu1": 5e5, "alpha3": -3 })");
+    EXPECT_EQ(rubber.m_law, ElasticLaw::ogden);
+    const std::vector<LawConstant>& known = constantsOf(ElasticLaw::ogden);
+    EXPECT_EQ(rubber.m_lawConstants[0], 5e5);
+    EXPECT_EQ(rubber.m_lawConstants[1], known[1].m_default);
+    EXPECT_EQ(rubber.m_lawConstants[5], -3);
+    EXPECT_EQ(materialOf(rubber).m_lawConstants[0], btScalar(5e5));
+    EXPECT_EQ(material(R"("law": "damage")").m_lawConstants[0], constantsOf(ElasticLaw::damage)[0].m_default);
+    const auto refusal = [&](const std::string& members)
+    {
+        try
+        {
+            parse(scene(members));
+        }
+        catch (const std::runtime_error& error)
+        {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refusal(R"("law": "treacle")"),
+                testing::HasSubstr("material.law is \"treacle\"; it must be a law that"));
+    EXPECT_THAT(refusal(R"("law": "ogden", "lawConstants": { "mu4": 1 })"),
+                testing::HasSubstr("'mu4', which is no constant of the law ogden"));
+    EXPECT_THAT(refusal(R"("law": "damage", "lawConstants": { "strength": 0 })"),
+                testing::HasSubstr("lawConstants.strength is 0; it must be a number in [1, "));
+    EXPECT_THAT(refusal(R"("law": "ogden", "lawConstants": { "mu1": -1 })"), testing::HasSubstr("give both one sign"));
 }
 
 TEST_F(SceneReader, ReadsOrthotropicConstants)

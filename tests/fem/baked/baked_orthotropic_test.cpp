@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "bullet_fem/fem/laws/law_table.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/scenes/baked_files.h"
 #include "fem/scenes/expect_rejected.h"
@@ -107,6 +108,28 @@ TEST_P(BakedOrthotropic, InvalidConstantsAreRejected)
 
 INSTANTIATE_TEST_SUITE_P(Regions, BakedOrthotropic, testing::Bool(),
                          [](const auto& suite) { return std::string(suite.param ? "Several" : "One"); });
+
+// Laws with constants of their own use the same section.
+TEST(BakedLaws, KeepTheirConstants)
+{
+    const TetMesh mesh = makeBox({1, 1, 2}, {1, 1, 2});
+    for (const ElasticLaw law : {ElasticLaw::ogden, ElasticLaw::damage})
+        for (const bool regions : {false, true})
+        {
+            BakeSettings settings;
+            settings.m_material.m_law = law;
+            for (std::size_t k = 0; k < constantsOf(law).size(); ++k)
+                settings.m_material.m_lawConstants[k] = constantsOf(law)[k].m_default;
+            for (int e = 0; e < mesh.tetCount() && regions; ++e) settings.m_labels.push_back(e % 2);
+            settings.m_regionMaterials = {{0, settings.m_material}, {1, Material()}};
+            const BakedBody baked = bakeBody(mesh, settings);
+            const std::string bytes = bytesOf(baked);
+            const BakedBody read =
+                readBakedBody(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), "law.bfem");
+            EXPECT_EQ(read.m_model->shape().m_materials, baked.m_model->shape().m_materials);
+            EXPECT_EQ(read.m_model->shape().materialOf(0).m_law, law);
+        }
+}
 
 }  // namespace
 }  // namespace bullet_fem
