@@ -44,9 +44,9 @@ struct BULLETFEM_API btFemSolverInfo
     /// Lower bound of the numerical damping for bodies that are in contact, were so in the step before, or are held by
     /// anchors, joints or springs [-], in [0, 1]. At 1 bodies rest and roll as with implicit Euler, at its cost; at 0
     /// undamped ones rebound with two to four times the speed, and steps in contact take up to three times as long.
-    /// Bodies that penetrate (BT_FEM_PENETRATING) or match a pose (kMT) always use 1, with joints at least .05. Factors are made for the larger
-    /// of both dampings: if they differ, free motion takes up to 1.6 times as long, and automatic detail (setInterest)
-    /// seldom leaves the full solution.
+    /// Bodies that penetrate (BT_FEM_PENETRATING) or match a pose (kMT) always use 1, with joints at least .05. Factors
+    /// are made for the larger of both dampings: if they differ, free motion takes up to 1.6 times as long, and
+    /// automatic detail (setInterest) seldom leaves the full solution.
     btScalar m_contactDamping = 1;
     /// Whether bodies that meet at more than 0.2 m/s rebound by their elasticity, as they do in small steps, although
     /// the step damps their impact. A coefficient of restitution that is set replaces it. Not for bodies on the
