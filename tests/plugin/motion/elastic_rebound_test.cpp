@@ -19,7 +19,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kImpactSpeed = 4.43;  // of a fall from a metre [m/s]
+constexpr double kReboundSpeed = 4.43;  // of a fall from a metre [m/s]
 
 enum class Impactor
 {
@@ -58,7 +58,7 @@ btSoftBody& addImpactor(FemWorld& world, const ReboundCase& how)
     world.fem().setMaterial(body, material);
     body->m_cfg.kDF = btScalar(.5);
     body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
-    body->setVelocity(btVector3(0, 0, btScalar(-kImpactSpeed)));
+    body->setVelocity(btVector3(0, 0, btScalar(-kReboundSpeed)));
     return world.addSoft(body);
 }
 
@@ -85,7 +85,7 @@ Returned rebound(const ReboundCase& how, Coupling coupling, double h, const btFe
     const Motion motion = motionOf(body);
     const Vec3 center = centerOf(body);
     const double inertia = massOf(body) * (.16 + .04) / 12;
-    return {(velocityOf(body).z - (other ? velocityOf(*other).z : 0)) / kImpactSpeed,
+    return {(velocityOf(body).z - (other ? velocityOf(*other).z : 0)) / kReboundSpeed,
             (motion.m_angular - cross(center, motion.m_linear)).y / inertia};
 }
 
