@@ -44,9 +44,9 @@ struct BULLETFEM_API btFemSolverInfo
     /// Lower bound of the numerical damping for bodies that are in contact, were so in the step before, or are held by
     /// anchors, joints or springs [-], in [0, 1]. At 1 bodies rest and roll as with implicit Euler, at its cost; at 0
     /// undamped ones rebound with two to four times the speed, and steps in contact take up to three times as long.
-    /// Bodies that penetrate (BT_FEM_PENETRATING) or match a pose (kMT) always use 1. Factors are made for the larger
-    /// of both dampings: if they differ, free motion takes up to 1.6 times as long, and automatic detail (setInterest)
-    /// seldom leaves the full solution.
+    /// Bodies that penetrate (BT_FEM_PENETRATING) or match a pose (kMT) always use 1, with joints at least .05. Factors
+    /// are made for the larger of both dampings: if they differ, free motion takes up to 1.6 times as long, and
+    /// automatic detail (setInterest) seldom leaves the full solution.
     btScalar m_contactDamping = 1;
     int m_maxIterations = 100;  ///< maximum number of conjugate gradient iterations per solve, in [1, 10000]
     /// Minimum number of outer contact iterations, each with a corrective solve, in [1, 10]; the maximum is ten.
