@@ -116,13 +116,14 @@ TEST_P(RigidRollers, KeepTheAngularMomentumWithAFreeSlab)
     Motion start = motionOf(slab);
     const double size = kRollerRadius * (norm(start.m_linear) + norm(motionOf(body).m_linear));
     start += motionOf(body);
+    const double kept = roller == Roller::hull ? 3e-5 : 1e-5;  // far contacts have a lever for each side (setLevers)
     double pushed = 0;
     for (int k = 0; k < 60; ++k)
     {
         world.step();
         Motion now = motionOf(slab);
         now += motionOf(body);
-        ASSERT_LT(norm(now.m_angular - start.m_angular), 1e-5 * size) << "step " << k;
+        ASSERT_LT(norm(now.m_angular - start.m_angular), kept * size) << "step " << k;
         pushed = std::max(pushed, norm(impulseOn(world.fem(), slab, &body)));
     }
     EXPECT_GT(pushed, 1);
