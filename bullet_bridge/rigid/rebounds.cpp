@@ -310,16 +310,18 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     rebound.m_speed = impact.m_restitution * impact.m_approach;
     if (!(rebound.m_speed > impact.m_speed)) return true;
     const MovingFrame frame = {impact.m_frame, impact.m_time};
-    // Vibrations of bodies that no longer press each other do not become rigid motion.
+    // Vibrations of bodies that no longer press each other do not become rigid motion; the restitution by elasticity
+    // accounts for these.
+    const bool isElastic = impact.m_push > 0;
     const auto energyLeft = [&](const FemSoftBody& body, int k)
     {
-        return impact.m_isPressed || !m_problem.m_rigidProxies[k].canMove()
+        return impact.m_isPressed || !isElastic || !m_problem.m_rigidProxies[k].canMove()
                    ? energyIn(frame, body)
                    : rigidEnergyIn(frame, body, m_problem.m_rigidProxies[k]);
     };
     rebound.m_energy = impact.m_energy - energyLeft(fem, kBody) -
                        (other.m_soft ? energyLeft(*other.m_soft, kOther) : energyOf(*other.m_rigid));
-    rebound.m_energy = std::min(rebound.m_energy, impact.m_loss);
+    if (isElastic) rebound.m_energy = std::min(rebound.m_energy, impact.m_loss);
     const RigidProxy before[] = {m_problem.m_rigidProxies[kOther], m_problem.m_rigidProxies[kBody]};
     const Vec3 impulse = giveRebound(m_problem, rebound);
     if (dot(impulse, impulse) == 0) return false;

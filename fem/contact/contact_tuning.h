@@ -35,11 +35,6 @@ inline constexpr double kBadGuess = 5;
 // times the speed of the best outer iteration [-]. Loses: jams of overlapping cubes are thrown apart (JamOfCubes).
 inline constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 
-// If an outer iteration leaves more than this share of a small error, the error is that of the corrective solves, or of
-// sliding points that pass load on gradually, which the next step corrects. Impacts may take several iterations without
-// visible progress [-]. Loses: a quarter more sweeps in PinchFriction.
-inline constexpr double kStandstill = 0.8, kSmallError = 5e-3;
-
 // Joints: share of the impulses on their bodies that may be missing, and of the speed scale that their sides may miss;
 // share of the scale that counts as zero; factor on the maximum number of outer iterations; remaining share that is
 // reported as not converged [-].

@@ -78,7 +78,6 @@ struct ContactSolver::Scratch
     double m_goal = 0;         // error at which outer iterations end
     double m_floor = 0;        // share of a body's impulses that residuals are measured against
     SweepProgress m_progress;
-    bool m_stalled = false;
     bool m_othersMoved = false;  // rows of others changed velocities in this outer iteration
     bool m_begins = false;       // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
@@ -131,7 +130,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     s.m_error = 1;
     s.m_isCalm = false;
     s.m_progress = {};
-    s.m_stalled = s.m_othersMoved = false;
+    s.m_othersMoved = false;
     const double missing = s.m_rows.missingSpeed();
     s.m_rows.setSpeedScale(missing);
     // The warm start is first tested on the true system, so that W serves only for the difference.
@@ -196,7 +195,6 @@ void ContactSolver::guess()
     s.m_rows.takeBack();
     s.m_error = 0;  // accurate solve
     correct();
-    s.m_stalled = false;
 }
 
 // If W is far from the true response, as in a jam of strained bodies, an outer iteration may increase the error.
@@ -236,7 +234,7 @@ bool ContactSolver::needsOuterIteration() const
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
     const int most = (errorOfJoints() > kJointTolerance ? kMoreRounds : 1) * s.m_settings.m_maxRounds;
-    return rounds < s.m_settings.m_rounds || (rounds < most && s.m_error > s.m_goal && !s.m_stalled);
+    return rounds < s.m_settings.m_rounds || (rounds < most && s.m_error > s.m_goal);
 }
 
 bool ContactSolver::sweep(double others)
@@ -278,12 +276,9 @@ void ContactSolver::correct(bool steady)
     s.m_gcr.look(s.m_othersMoved);
     s.m_othersMoved = false;
     s.m_begins = true;
-    const double before = s.m_error;
     s.m_found = s.m_sweeps.look();
     s.m_error = errorNow();
     s.m_goal = s.m_settings.m_tolerance;
-    s.m_stalled = s.m_report.m_rounds > s.m_settings.m_rounds + 1 && s.m_error > kStandstill * before &&
-                  s.m_error < kSmallError && errorOfJoints() <= kJointTolerance;
     noteBest();
 }
 
