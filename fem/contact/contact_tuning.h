@@ -14,6 +14,15 @@ namespace bullet_fem
 inline constexpr double kResidualShare = 0.3;
 inline constexpr double kFinestFloor = 1e-3;
 
+// If more outer iterations than usual do not suffice, each further one is solved more accurately by this factor [-].
+inline constexpr int kUsualRounds = 3;
+inline constexpr double kCloser = 0.3;
+
+// While the error is this many times the tolerance, another outer iteration follows in any case and removes the
+// residual of this corrective solve: a larger share of its right-hand side is allowed [-].
+inline constexpr double kFarFromTolerance = 30;
+inline constexpr double kLooseShare = 0.1;
+
 // The tolerance of a fast impact is a share of a high speed: the error must not let thin and tiny bodies penetrate
 // deeply within the step. Share of an element's edge per step [-], and a bound above rounding. Loses: a pit closes at
 // 14 mm/s for 6.
@@ -35,6 +44,13 @@ inline constexpr double kBadGuess = 5;
 // times the speed of the best outer iteration [-]. Loses: jams of overlapping cubes are thrown apart (JamOfCubes).
 inline constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 
+// If an outer iteration leaves more than this share of a small error, the error is that of the corrective solves, or of
+// sliding points that pass load on gradually, which the next step corrects. If W is too soft, every outer iteration
+// removes only a part. Impacts may take several iterations without visible progress [-]. Loses: a quarter more sweeps
+// in PinchFriction.
+inline constexpr double kStandstill = 0.8, kSmallError = 5e-3;
+inline constexpr double kStandstillWhereSoft = 0.97, kSmallErrorWhereSoft = 1e-3;
+
 // Joints: share of the impulses on their bodies that may be missing, and of the speed scale that their sides may miss;
 // share of the scale that counts as zero; factor on the maximum number of outer iterations; remaining share that is
 // reported as not converged [-].
@@ -52,6 +68,8 @@ inline constexpr double kRoundingOfOthers = 1e-6;
 // directions without impulses, and a share of the scale is kept for the next step [-]. Loses: a body with a factor of a
 // sixteenth of its mass (StaleFactorContact).
 inline constexpr double kTooStiff = 1.5, kScaleMargin = 1.2, kForgetting = 0.99;
+// True over predicted response below which W counts as too soft [-].
+inline constexpr double kTooSoft = 0.7;
 
 // --- Sweeps ---
 
@@ -59,6 +77,13 @@ inline constexpr double kTooStiff = 1.5, kScaleMargin = 1.2, kForgetting = 0.99;
 // while no velocity changes. Sweeps end if the best of a window is hardly better than that of the previous one [-].
 inline constexpr int kWindow = 10;
 inline constexpr double kStallRatio = 0.8;
+
+// The total of further sweeps is several times the change by one: with a larger tolerance, piles would take seconds
+// longer to come to rest [-].
+inline constexpr double kCoarsestChange = 3e-3;
+
+// Weights of nearly parallel differences are large and opposite, and dominated by rounding: maximum trusted weight [-].
+inline constexpr double kMaxMixingWeight = 300;
 
 // A pair of owners is swept again, at most this often, if it has just changed by more than this share of the speed
 // scale and by more than the tolerance: smaller errors are between pairs. Loses: a third to half more sweeps in pits.
@@ -76,6 +101,11 @@ inline constexpr double kJoinedShare = 0.02;
 
 // Impacts change velocities by the speed scale, occasionally by some tens of it [-]; a sweep beyond this diverges.
 inline constexpr double kRunaway = 1e3;
+
+// Contacts between rigid proxies are settled for the warm start in at most this many sweeps, until one changes less
+// than this share of the largest change [-].
+inline constexpr int kSettlingSweeps = 200;
+inline constexpr double kTouchesSettled = 1e-3;
 
 // Friction may add this share of a rigid contact's normal impulse by its lever arm [-]; beyond it the load would have
 // no bound [Painleve 1895], and led bodies with a friction coefficient of 10 stop dead.

@@ -21,22 +21,25 @@ constexpr double kRounding = 1e-9;  // share of the body's speed below which cha
 
 }  // namespace
 
-ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, double floor)
+ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
 {
     m_learnt = false;
     refresh();
     if (!gatherBeyond(m_applied) && !m_leftMuch) return {};
-    m_leftMuch = false;
+    m_leftMuch = goal.m_share > 0;
     addLevers(settings);
-    return {m_body.m_body, &m_nodeIn, settings, floor * normOfImpulses(), false, {}};
+    StepSettings loosened = settings;
+    loosened.m_tolerance = std::max(settings.m_tolerance, goal.m_share);
+    const double floor = floorOf(goal) * settings.m_tolerance / loosened.m_tolerance;
+    return {m_body.m_body, &m_nodeIn, loosened, floor, false, {}};
 }
 
-// [N s]
-double SoftBodyContacts::normOfImpulses() const
+// Norm of a residual [N s].
+double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
 {
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    return std::sqrt(all);
+    return goal.m_floor * std::sqrt(all);
 }
 
 // Two surfaces separated by a gap share one point of action: the moment by the gap's lever is applied as a spin. An
@@ -66,7 +69,7 @@ Vec3 SoftBodyContacts::groupLever(const End& end, const Vec3& impulse) const
     return lever;
 }
 
-void SoftBodyContacts::takeExpected(const StepSettings& settings, double floor)
+void SoftBodyContacts::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)
 {
     if (m_ends.empty()) return giveUpExpected(settings);
     addLevers(settings);
@@ -85,7 +88,7 @@ void SoftBodyContacts::takeExpected(const StepSettings& settings, double floor)
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);
     scratch.m_momentum.restore(body, scratch.m_velocity);
-    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floor * normOfImpulses();
+    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
 
@@ -161,8 +164,11 @@ bool SoftBodyContacts::isAboveRounding(const Lesson& lesson) const
 
 void SoftBodyContacts::learn(const Lesson& lesson)
 {
+    const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!stiffer || !isAboveRounding(lesson) || !hasContacts()) return;
+    if (!(softer || stiffer) || !isAboveRounding(lesson) || !hasContacts()) return;
+    m_tooSoft = m_tooSoft || softer;
+    if (!stiffer) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
     m_learnt = true;
     m_scale *= factor;

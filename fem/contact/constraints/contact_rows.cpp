@@ -229,12 +229,12 @@ RowSurvey ContactRows::survey()
     return all;
 }
 
-bool ContactRows::apply(double floor, bool steady, ContactReport& report)
+bool ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
 {
     forEachContactBody(m_settings.m_step.m_threads,
                        [&](int b)
                        {
-                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, floor);
+                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, goal);
                            m_corrections[b].m_steady = steady;
                        });
     solveCorrections();
@@ -316,6 +316,13 @@ Vec3 ContactRows::newSlip(const ContactRow& row, const ContactPoint& contact) co
     if (!sticks(row)) return {};
     const Vec3 slip = contact.m_slip + m_settings.m_step.m_step * meanVelocity(row) - arcOfMean(row);
     return slip - dot(slip, contact.m_normal) * contact.m_normal;
+}
+
+bool ContactRows::isTooSoft() const
+{
+    const auto isSoft = [](const SoftBodyContacts& body) { return body.size() > 0 && body.isTooSoft(); };
+    return std::any_of(m_bodies.begin(), m_bodies.begin() + static_cast<std::ptrdiff_t>(m_problem->m_bodies.size()),
+                       isSoft);
 }
 
 double ContactRows::violation(const ContactRow& row, const Vec3& trueVelocity) const

@@ -29,9 +29,9 @@ class ContactRows
 {
 public:
     /// Computes sides, frames and compliance of all rows, from free velocities of bodies and present ones of rigid
-    /// proxies. `floor` of the bodies' solves: see SoftBodyContacts::beginCorrection(). The problem must live until the
-    /// step is over.
-    void assemble(ContactProblem& problem, const ContactSettings& settings, double floor);
+    /// proxies. `goal`: required accuracy of the bodies' solves for the initial impulses. The problem must live until
+    /// the step is over.
+    void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
@@ -58,6 +58,9 @@ public:
 
     /// True if a row starts with an impulse.
     bool hasImpulses() const;
+
+    /// Solves the contacts between rigid proxies for the impulses so far. Returns whether there are any.
+    bool settleRigidContacts();
 
     /// Velocity response of one side to an impulse on another [1/kg]; angular sides of rigid proxies have spins and
     /// angular impulses.
@@ -154,7 +157,11 @@ public:
 
     /// Solves the bodies' true systems for the new impulses. `steady`: all impulses are those of a step similar to the
     /// previous one. Returns whether the rows' compliance has changed.
-    bool apply(double floor, bool steady, ContactReport& report);
+    bool apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
+
+    /// True if a body has responded less than its compliance predicted: each outer iteration then removes only part of
+    /// the error.
+    bool isTooSoft() const;
 
     /// Maximum excess of a contact's true approach speed over the allowed one, and of the speeds that joints must
     /// change from zero impulses [m/s].

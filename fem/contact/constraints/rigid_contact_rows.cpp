@@ -47,4 +47,26 @@ void ContactRows::limitContactFriction(ContactRow& row)
     row.m_friction = std::min(row.m_friction, kMaxPressing * dot(byNormal, row.m_axes[0]) / std::max(lever, 1e-300));
 }
 
+// Warm-start impulses of other rows push rigid proxies into their supports. The reaction to this is no change for which
+// the contact solve must account.
+bool ContactRows::settleRigidContacts()
+{
+    const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
+    const std::size_t end = first + m_problem->m_rigidContacts.size();
+    double most = 0, largest = 1;  // maximum changes, of all sweeps and of the last [m/s]
+    for (int sweep = 0; sweep < kSettlingSweeps && largest > kTouchesSettled * most; ++sweep)
+    {
+        largest = 0;
+        for (std::size_t k = first; k < end; ++k)
+        {
+            ContactRow& row = m_rows[k];
+            const Vec3 wanted = wantedImpulse(row, row.m_impulse, velocity(row), 1);
+            largest = std::max(largest, speedOf(row, wanted - row.m_impulse));
+            change(row, wanted);
+        }
+        most = std::max(most, largest);
+    }
+    return first < end;
+}
+
 }  // namespace bullet_fem

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/contact/contact_tuning.h"
+
 namespace bullet_fem
 {
 namespace
@@ -138,7 +140,8 @@ void AndersonAcceleration::chooseShares(const std::vector<int>& working)
                     (change[1] * own[0] - change[0] * both) / determinant};
     else if (own[m_slot] > 0)
         m_shares[m_slot] = change[m_slot] / own[m_slot];
-    if (!std::isfinite(m_shares[0] + m_shares[1])) m_shares = {};
+    const auto isNear = [](double share) { return std::abs(share) <= kMaxMixingWeight; };
+    if (!std::all_of(m_shares.begin(), m_shares.end(), isNear)) m_shares = {};
 }
 
 }  // namespace bullet_fem
