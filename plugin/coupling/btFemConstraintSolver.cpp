@@ -51,6 +51,11 @@ btScalar btFemConstraintSolver::solveGroupCacheFriendlyIterations(btCollisionObj
     btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
-    m_islandSolver->solveTogether(*this);
+    const auto sweep = [&](int iteration)
+    {
+        return solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints, numConstraints,
+                                    info, debugDrawer);
+    };
+    m_islandSolver->solveTogether(*this, info, sweep);
     return 0;
 }

@@ -58,6 +58,11 @@ btScalar btFemMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
     btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
-    m_islandSolver->solveTogether(*this);
+    const auto sweep = [&](int iteration)
+    {
+        return solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints, numConstraints,
+                                    info, debugDrawer);
+    };
+    m_islandSolver->solveTogether(*this, info, sweep);
     return 0;
 }
