@@ -87,8 +87,9 @@ void setLevers(const SearchScope& scope, const ContactTarget& target, int featur
     const FemSoftBody& fem = scope.fem();
     const bool isNode = feature < fem.m_surface.topology().vertexCount();
     const PatchPoint point(target, {feature, feature, feature}, {1, 0, 0}, contact.m_normal);
-    const bool rolls =
-        point.m_curvature > 0 || (isNode && roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0);
+    const Vec3& spin = target.m_motion->m_angularVelocity;
+    const bool rolls = (point.m_curvature > 0 && dot(spin, spin) > 0) ||
+                       (isNode && roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0);
     if (isNode) contact.m_patch = patchOf(scope, target, point, met.m_time);
     if (rolls && contact.m_gap < kRollingGap * scope.m_size) return;
     if (!isNode) contact.m_patch = {};
