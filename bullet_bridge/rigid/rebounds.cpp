@@ -148,7 +148,8 @@ bool Rebounds::meet(const ImpactScene& scene, const ImpactPatch& patch, double l
     const Vec3& n = impact.m_normal;
     Sides sides = sidesOf(scene, patch);
     const double facet = fem.m_body.m_model->mesh().meanEdgeLength();
-    const double slowest = least + rollingSpeed(sides.m_first, sides.m_second, n, scene.m_step, facet);
+    const double slowest =
+        patch.m_restitution > 0 ? least : least + rollingSpeed(sides.m_first, sides.m_second, n, scene.m_step, facet);
     if (!(sides.approachAt(impact) > slowest)) return false;
     const RigidProxy* firstSupport = supportOf(scene, patch.m_body, patch.m_component, -n);
     const RigidProxy* secondSupport =
@@ -290,8 +291,11 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
     impact.m_gain = std::max(impact.m_gain, gain);
     impact.m_speed = speed;
     impact.m_time += step;
-    impact.m_point += step * patchVelocity();
-    turnNormal(impact, step);
+    if (impact.m_push > 0)  // a restitution by elasticity
+    {
+        impact.m_point += step * patchVelocity();
+        turnNormal(impact, step);
+    }
     const bool isDriven = impact.m_isPressed && !(gain < kSpent * impact.m_gain);
     if (isDriven || !(speed > -kStopped * impact.m_approach)) return !impact.m_isNear;
     if (impact.m_stopTime == 0) impact.m_stopTime = impact.m_time;

@@ -19,6 +19,7 @@
 #include <bullet_fem/btFemRay.h>
 #include <bullet_fem/btFemSoftBodySolver.h>
 #include <bullet_fem/btFemWelds.h>
+#include <bullet_fem/btFemWorldState.h>
 
 #include <iostream>
 #include <vector>

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bullet_fem/btFemHelpers.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/mesh/generators.h"
 #include "plugin/scenes/scene_measures.h"
 #include "plugin/scenes/soft_boxes.h"
