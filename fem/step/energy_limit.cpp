@@ -17,7 +17,7 @@ namespace
 {
 
 // Gain of energy that is accepted, as a share of the energy before the step and the work in it [-].
-constexpr double kMaxEnergyGain = 0.5;
+constexpr double kMaxEnergyGain = 1;
 
 // Trials of shorter motions. Each takes the fourth root of the gain that is left: strain along chords grows with the
 // square of the motion, and its energy with the fourth power.

@@ -101,7 +101,7 @@ enum btFemFlags
     /// with the long-time modulus; Neo-Hookean regions count as rigid. Never set without gravity. Checked when the body
     /// becomes FEM, and when its material, rest shape, mass or gravity changes.
     BT_FEM_TOO_SOFT = 1 << 27,
-    /// The step would have created energy, more than half of what the body had and was given: elements turned or were
+    /// The step would have created more energy than the body had and was given: elements turned or were
     /// crushed too far within it. Its elastic motion was shortened (docs/theory.md, Energy), and momenta stay. Take
     /// smaller steps or a softer material; where other flags are set, mend their causes first.
     BT_FEM_ENERGY = 1 << 28,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// No step creates more than half of the energy that the body has and is given. A bar of 2 x .1 x .1 m whose end swings
+// No step creates more energy than the body has and is given. A bar of 2 x .1 x .1 m whose end swings
 // by a quarter of its length within a step is stretched along chords, by several times its energy if it is stiff.
 #include <gtest/gtest.h>
 
