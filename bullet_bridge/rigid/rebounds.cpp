@@ -266,7 +266,7 @@ Vec3 Rebounds::patchVelocity() const
     return count > 0 ? (1.0 / count) * sum : sum;
 }
 
-// Of two bodies that meet along the line of their centres, the normal turns with that line, as with balls.
+// The normal between two bodies that meet along the line of their centres turns with that line, as with balls.
 void Rebounds::turnNormal(Impact& impact, double step) const
 {
     const RigidProxy &body = m_problem.m_rigidProxies[kBody], &other = m_problem.m_rigidProxies[kOther];

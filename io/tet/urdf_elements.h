@@ -45,7 +45,7 @@ std::string findMesh(const tinyxml2::XMLElement& element, const std::filesystem:
 /// A `<deformable>`.
 UrdfDeformable readDeformable(const tinyxml2::XMLElement& block, const std::filesystem::path& urdf);
 
-/// What `read(robot)` returns for the element `<robot>` of a file. Exceptions name the file.
+/// Calls read(robot) for the element `<robot>` of a file, and returns its result. Exceptions name the file.
 template <class Read>
 auto readUrdf(const std::string& path, const Read& read)
 {

@@ -24,7 +24,7 @@ _MODES = ("NextStep", "SameStep", "Disabled")  # values of gymnasium.vector.Auto
 
 
 class _Box(typing.NamedTuple):
-    """What gymnasium.spaces.Box tells, where gymnasium is not installed."""
+    """The data of a gymnasium.spaces.Box, where gymnasium is not installed."""
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]

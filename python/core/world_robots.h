@@ -14,7 +14,7 @@ namespace bullet_fem::python
 /// The robots of a world, by indices that are never used again.
 struct WorldRobots
 {
-    /// What add() made: the robot, and the soft bodies of its file.
+    /// Result of add(): the robot, and the soft bodies of its file.
     struct Added
     {
         int m_robot = -1;
