@@ -71,6 +71,7 @@ Rebounds::Rebounds(bool isElastic) : m_patches(isElastic)
 {
     m_problem.m_rigidProxies.reserve(2);
     m_problem.m_contacts.reserve(1);
+    m_given.reserve(kUsualRebounds);
 }
 
 void Rebounds::note(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies, const RigidProxies& rigid,
@@ -195,6 +196,7 @@ const RigidProxy* Rebounds::supportOf(const ImpactScene& scene, int rigidProxy, 
 void Rebounds::give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world, RigidProxies& rigid, double step)
 {
     world.forget();
+    m_given.clear();
     for (FemSoftBody* fem : bodies)
     {
         std::vector<Impact>& impacts = fem->m_memory.m_impacts;
@@ -341,6 +343,7 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     };
     move(fem, impact.m_component, kBody);
     if (other.m_soft) move(*other.m_soft, impact.m_otherComponent, kOther);
+    m_given.push_back({&fem, other.m_soft, impact, impulse});
     if (other.m_soft || !before[kOther].canMove()) return true;
     rigid.rigidProxies().front().m_linearVelocity += linear(kOther);
     rigid.rigidProxies().front().m_angularVelocity += angular(kOther);

@@ -18,6 +18,15 @@ constexpr double kReboundTolerance = 3e-5;
 /// True if some contact has a coefficient of restitution above 0.
 bool mayRebound(const ContactProblem& problem);
 
+/// A rebound's impulse, as contact reports list it.
+struct GivenRebound
+{
+    FemSoftBody* m_body = nullptr;
+    FemSoftBody* m_otherBody = nullptr;  ///< a soft other side; null: rigid
+    Impact m_impact;                     ///< before it was forgotten
+    Vec3 m_impulse;                      ///< on the body [N s]
+};
+
 /// Restitution. The contact solve itself has none, and the step damps the elastic rebound of bodies. When contact no
 /// longer drives two colliding bodies apart, and they separate more slowly than the coefficient of restitution demands,
 /// the one that is set or that of their elasticity, one impulse on both adds the missing speed, with at most the energy
@@ -39,7 +48,12 @@ public:
     /// `bodies` are all bodies of note() in this step; `step` [s]. Clears the rigid proxies of `rigid`.
     void give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world, RigidProxies& rigid, double step);
 
+    /// The rebounds that the last call of give() has applied.
+    const std::vector<GivenRebound>& given() const { return m_given; }
+
 private:
+    static constexpr int kUsualRebounds = 16;  // in a step; more allocate memory, once
+
     // The other side of an impact, if it still exists.
     struct Other
     {
@@ -74,6 +88,7 @@ private:
 
     ImpactPatches m_patches;
     ContactProblem m_problem;  // of both sides: the other, then the body
+    std::vector<GivenRebound> m_given;
 };
 
 }  // namespace bullet_fem

@@ -113,6 +113,24 @@ bool updateKnownTouches(btFemBodyRecord& record, const btFemTogether& together)
     return true;
 }
 
+void addTouchImpulse(btFemBodyRecord& record, const btCollisionObject* other, int otherId, const btVector3& impulse,
+                     btScalar normalImpulse)
+{
+    btAlignedObjectArray<btFemTouch>& touches = record.m_reports.m_touches;
+    btFemTouch* touch = find(touches, {other, otherId, 0});
+    if (!touch)
+    {
+        touches.push_back(btFemTouch());
+        touch = &touches[touches.size() - 1];
+        touch->m_other = other;
+        touch->m_otherId = otherId;
+    }
+    if (touch->m_state == btFemTouchState::ended) touch->m_state = btFemTouchState::lasting;
+    touch->m_points = std::max(touch->m_points, 1);
+    touch->m_impulse += impulse;
+    touch->m_normalImpulse += normalImpulse;
+}
+
 btScalar touchSlack(const btFemBodyRecord& record)
 {
     return static_cast<btScalar>(kTouchSlack * record.fem().m_surface.meanEdge());

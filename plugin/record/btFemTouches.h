@@ -24,6 +24,11 @@ void updateTouches(btFemBodyRecord& record, const btFemTogether& together);
 /// updateTouches must be called. Never allocates.
 bool updateKnownTouches(btFemBodyRecord& record, const btFemTogether& together);
 
+/// Adds an impulse on the body [N s], with its normal component, to the contact pair with an object of a broadphase id,
+/// which begins if it is new. May allocate then.
+void addTouchImpulse(btFemBodyRecord& record, const btCollisionObject* other, int otherId, const btVector3& impulse,
+                     btScalar normalImpulse);
+
 /// Maximum gap of a lasting contact without impulse [m]: large enough that a body at rest, which may lift off by
 /// rounding for a step, stays in contact.
 btScalar touchSlack(const btFemBodyRecord& record);

@@ -306,4 +306,5 @@ void btFemContactGroup::giveRebounds(const std::vector<btFemBodyRecord*>& record
     m_bodies.clear();
     for (btFemBodyRecord* record : records) m_bodies.push_back(&record->fem());
     m_rebounds.give(m_bodies, world, m_rigid, step);
+    for (const GivenRebound& given : m_rebounds.given()) reportRebound(given, records);
 }

@@ -130,6 +130,7 @@ private:
     void makeRoomForReports();
     void reportCloth(std::size_t b);
     void reportBody(std::size_t b, const bullet_fem::ContactReport& report);
+    void reportRebound(const bullet_fem::GivenRebound& given, const std::vector<btFemBodyRecord*>& records);
 
     btFemSolverInfo m_info;
     double m_step = 0;  // [s]

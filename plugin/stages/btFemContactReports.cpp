@@ -43,6 +43,75 @@ void noteContact(btFemBodyReports& reports, const btFemContact& contact, const C
     deepest = std::max(deepest, static_cast<btScalar>(-point.m_gap));
 }
 
+void addImpulse(btFemContact& contact, const btVector3& impulse)
+{
+    contact.m_impulse += impulse;
+    contact.m_normalImpulse = std::max(contact.m_impulse.dot(contact.m_normal), btScalar(0));
+    contact.m_frictionImpulse = contact.m_impulse - contact.m_normalImpulse * contact.m_normal;
+}
+
+// One side of a rebound.
+struct ReboundSide
+{
+    const btCollisionObject* m_other;
+    int m_otherId, m_component;
+    Vec3 m_point, m_normal, m_impulse;  // on this side
+};
+
+// A contact point at the node that is nearest to the rebound.
+btFemContact contactOf(const btFemBodyRecord& record, const ReboundSide& side)
+{
+    const Body& body = record.fem().m_body;
+    const std::vector<int>& componentOf = body.m_model->mesh().nodeComponent();
+    const std::vector<Vec3>& x = body.m_state.m_x;
+    int nearest = -1;
+    double least = 0;
+    for (int i = 0; i < static_cast<int>(x.size()); ++i)
+    {
+        const Vec3 off = x[i] - side.m_point;
+        if (componentOf[i] != side.m_component || (nearest >= 0 && !(dot(off, off) < least))) continue;
+        nearest = i;
+        least = dot(off, off);
+    }
+    btFemContact contact;
+    contact.m_point = bulletVector(side.m_point);
+    contact.m_normal = bulletVector(side.m_normal);
+    contact.m_impulse = contact.m_frictionImpulse = btVector3(0, 0, 0);
+    contact.m_other = side.m_other;
+    contact.m_weights[0] = 1;
+    for (int a = 0; a < contact.m_nodeCount; ++a) contact.m_nodes[a] = nearest;
+    return contact;
+}
+
+// Shares the impulse out to the contact points of the two, in proportion to their normal impulses, or evenly.
+void noteRebound(btFemBodyRecord& record, const ReboundSide& side)
+{
+    btAlignedObjectArray<btFemContact>& contacts = record.m_reports.m_contacts;
+    const std::vector<int>& componentOf = record.fem().m_body.m_model->mesh().nodeComponent();
+    const auto isOf = [&](const btFemContact& contact)
+    { return contact.m_other == side.m_other && componentOf[contact.m_nodes[0]] == side.m_component; };
+    btScalar push = 0;
+    int count = 0;
+    for (int k = 0; k < contacts.size(); ++k)
+    {
+        if (!isOf(contacts[k])) continue;
+        push += contacts[k].m_normalImpulse;
+        ++count;
+    }
+    if (count == 0)
+    {
+        contacts.push_back(contactOf(record, side));
+        record.m_reports.m_step.m_contacts = contacts.size();
+        count = 1;
+    }
+    const btVector3 impulse = bulletVector(side.m_impulse);
+    for (int k = 0; k < contacts.size(); ++k)
+        if (isOf(contacts[k]))
+            addImpulse(contacts[k], (push > 0 ? contacts[k].m_normalImpulse / push : 1 / btScalar(count)) * impulse);
+    addTouchImpulse(record, side.m_other, side.m_otherId, impulse,
+                    static_cast<btScalar>(dot(side.m_impulse, side.m_normal)));
+}
+
 }  // namespace
 
 void btFemContactGroup::report(const ContactReport& report)
@@ -90,8 +159,9 @@ void btFemContactGroup::makeRoomForReports()
     for (std::size_t b = 0; b < m_records.size(); ++b)
     {
         btAlignedObjectArray<btFemContact>& reported = m_records[b]->m_reports.m_contacts;
-        const int count =
-            static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]) + m_cloth.countOf(b);
+        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b] +
+                                           m_bodies[b]->m_memory.m_impacts.size()) +
+                          m_cloth.countOf(b);
         if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
     }
 }
@@ -146,4 +216,17 @@ void btFemContactGroup::reportCloth(std::size_t b)
         contact.m_other = &m_cloth.cloth(k);
         noteContact(m_records[b]->m_reports, contact, point);
     }
+}
+
+void btFemContactGroup::reportRebound(const GivenRebound& given, const std::vector<btFemBodyRecord*>& records)
+{
+    const Impact& impact = given.m_impact;
+    const auto recordOf = [&records](const FemSoftBody* fem)
+    { return *std::find_if(records.begin(), records.end(), [fem](const auto* r) { return &r->fem() == fem; }); };
+    noteRebound(*recordOf(given.m_body), {impact.m_other, impact.m_otherId, impact.m_component, impact.m_point,
+                                          impact.m_normal, given.m_impulse});
+    if (!given.m_otherBody) return;
+    const btCollisionObject* body = given.m_body->m_softBody;
+    noteRebound(*recordOf(given.m_otherBody), {body, broadphaseId(*body), impact.m_otherComponent, impact.m_point,
+                                               -impact.m_normal, -given.m_impulse});
 }

@@ -136,6 +136,33 @@ TEST_P(Bounce, StiffBallStaysWithoutRestitution)
     }
 }
 
+// Momentum changes by the reported impulses and the weight in each step, those of the rebound, too.
+TEST_P(Bounce, ContactsAndTouchesReportTheRebound)
+{
+    for (const double young : {1e5, 1e7})
+    {
+        SCOPED_TRACE(young);
+        btSoftBody& cube = addCube(young, 0.3);
+        cube.setVelocity(btVector3(0, 0, -3));
+        double mostImpulse = 0;
+        for (int k = 0; k < value() / 2; ++k)
+        {
+            const Vec3 before = massOf(cube) * velocityOf(cube);
+            step();
+            const Vec3 gained = massOf(cube) * velocityOf(cube) - before + Vec3{0, 0, massOf(cube) * kGravity * m_h};
+            const Vec3 reported = impulseOn(m_fem, cube);
+            EXPECT_LT(norm(gained - reported), 1e-4 * 3 * massOf(cube)) << k;
+            const btAlignedObjectArray<btFemTouch>& touches = m_fem.touches(&cube);
+            Vec3 touched;
+            for (int t = 0; t < touches.size(); ++t) touched += vec3(touches[t].m_impulse);
+            EXPECT_LT(norm(touched - reported), 1e-5 * 3 * massOf(cube)) << k;
+            mostImpulse = std::max(mostImpulse, norm(reported));
+        }
+        EXPECT_GT(mostImpulse, 0.1 * massOf(cube));
+        m_world.deleteSoft(cube);
+    }
+}
+
 // Restitution does not keep a resting body from resting.
 TEST_P(Bounce, ABodyComesToRest)
 {
