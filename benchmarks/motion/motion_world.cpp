@@ -98,6 +98,7 @@ private:
     {
         btFemSolverInfo info;
         info.m_numericalDamping = info.m_contactDamping = method == MotionMethod::secondOrder ? 0 : 1;
+        info.m_elasticRebound = false;
         return info;
     }
 

@@ -21,6 +21,22 @@ bool isPairOf(const ImpactScene& scene, const ContactPoint& c)
                                  : c.m_rigidProxy < static_cast<int>(scene.m_rigid.rigidProxies().size());
 }
 
+// True if pins, joints or Bullet's constraints do not hold a side: the mobility of a held one is not that of its mass.
+bool isFree(const FemSoftBody& fem, int component)
+{
+    const std::vector<int>& componentOf = fem.m_body.m_model->mesh().nodeComponent();
+    if (!fem.m_joints.m_now.empty()) return false;
+    for (std::size_t i = 0; i < componentOf.size(); ++i)
+        if (componentOf[i] == component && fem.m_body.m_state.m_fixed[i]) return false;
+    return true;
+}
+
+bool isFree(const btCollisionObject& object)
+{
+    const btRigidBody* body = movableBody(object);
+    return !body || body->getNumConstraintRefs() == 0;
+}
+
 }  // namespace
 
 int ImpactScene::componentOf(const SurfacePoint& point) const
@@ -130,15 +146,18 @@ bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, 
 
 double ImpactPatches::elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact)
 {
+    const FemSoftBody* soft = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody] : nullptr;
+    if (!isFree(*scene.m_bodies[patch.m_body], patch.m_component)) return 0;
+    if (soft ? !isFree(*soft, patch.m_otherComponent) : !isFree(*impact.m_other)) return 0;
     PatchResponse response;
     const Vec3& n = impact.m_normal;
     double acceleration = 0;
     if (!addSide(scene, patch, patch.m_body, impact.m_isHeld, response)) return 0;
     if (!impact.m_isHeld) acceleration -= dot(n, scene.m_bodies[patch.m_body]->gravity());
-    if (patch.m_otherBody >= 0)
+    if (soft)
     {
         if (!addSide(scene, patch, patch.m_otherBody, impact.m_otherIsHeld, response)) return 0;
-        if (!impact.m_otherIsHeld) acceleration += dot(n, scene.m_bodies[patch.m_otherBody]->gravity());
+        if (!impact.m_otherIsHeld) acceleration += dot(n, soft->gravity());
     }
     else if (!impact.m_otherIsHeld)
     {

@@ -58,7 +58,8 @@ public:
 
     const std::vector<ImpactPatch>& patches() const { return m_patches; }
 
-    /// The coefficient of restitution of an impact's bodies by their elasticity [-]: see elasticRestitution().
+    /// The coefficient of restitution of an impact's bodies by their elasticity [-]: see elasticRestitution(). 0 if
+    /// pins, joints or Bullet's constraints hold a side.
     double elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact);
 
 private:

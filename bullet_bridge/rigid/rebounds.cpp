@@ -314,7 +314,7 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     rebound.m_point = impact.m_point;
     rebound.m_normal = impact.m_normal;
     rebound.m_speed = impact.m_restitution * impact.m_approach;
-    if (!(rebound.m_speed > impact.m_speed)) return true;
+    if (!(impact.m_restitution > 0) || !(rebound.m_speed > impact.m_speed)) return true;
     const MovingFrame frame = {impact.m_frame, impact.m_time};
     // Vibrations of bodies that no longer press each other do not become rigid motion; the restitution by elasticity
     // accounts for these.
@@ -343,7 +343,8 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     };
     move(fem, impact.m_component, kBody);
     if (other.m_soft) move(*other.m_soft, impact.m_otherComponent, kOther);
-    m_given.push_back({&fem, other.m_soft, impact, impulse});
+    m_given.push_back({before[kBody].canMove() ? &fem : nullptr, before[kOther].canMove() ? other.m_soft : nullptr,
+                       fem.m_softBody, impact, impulse});
     if (other.m_soft || !before[kOther].canMove()) return true;
     rigid.rigidProxies().front().m_linearVelocity += linear(kOther);
     rigid.rigidProxies().front().m_angularVelocity += angular(kOther);

@@ -18,11 +18,12 @@ constexpr double kReboundTolerance = 3e-5;
 /// True if some contact has a coefficient of restitution above 0.
 bool mayRebound(const ContactProblem& problem);
 
-/// A rebound's impulse, as contact reports list it.
+/// A rebound's impulse, as contact reports list it. A side that cannot move, by pins or a support, passes it on.
 struct GivenRebound
 {
-    FemSoftBody* m_body = nullptr;
-    FemSoftBody* m_otherBody = nullptr;  ///< a soft other side; null: rigid
+    FemSoftBody* m_body = nullptr;       ///< null: it cannot move
+    FemSoftBody* m_otherBody = nullptr;  ///< null: rigid, or it cannot move
+    const btCollisionObject* m_object;   ///< the body's
     Impact m_impact;                     ///< before it was forgotten
     Vec3 m_impulse;                      ///< on the body [N s]
 };

@@ -50,8 +50,8 @@ struct BULLETFEM_API btFemSolverInfo
     btScalar m_contactDamping = 1;
     /// Whether bodies that meet at more than 0.2 m/s rebound by their elasticity, as they do in small steps, although
     /// the step damps their impact. A coefficient of restitution that is set replaces it. Not for bodies on the
-    /// low-memory path. Contact reports do not have the impulses of rebounds.
-    bool m_elasticRebound = false;
+    /// low-memory path, with pins or joints, nor for rigid bodies on Bullet's constraints.
+    bool m_elasticRebound = true;
     int m_maxIterations = 100;  ///< maximum number of conjugate gradient iterations per solve, in [1, 10000]
     /// Minimum number of outer contact iterations, each with a corrective solve, in [1, 10]; the maximum is ten.
     int m_contactRounds = 1;

@@ -15,6 +15,8 @@ using namespace bullet_fem;
 namespace
 {
 
+constexpr int kUsualRebounds = 4;  // of a body in a step: room for contact points of their own
+
 // Fills in the impulse on one side, and that side's point.
 void fill(btFemContact& contact, const ContactPoint& point, bool otherSide)
 {
@@ -159,9 +161,8 @@ void btFemContactGroup::makeRoomForReports()
     for (std::size_t b = 0; b < m_records.size(); ++b)
     {
         btAlignedObjectArray<btFemContact>& reported = m_records[b]->m_reports.m_contacts;
-        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b] +
-                                           m_bodies[b]->m_memory.m_impacts.size()) +
-                          m_cloth.countOf(b);
+        const int count = static_cast<int>(m_firstRigid[b + 1] - m_firstRigid[b] + first[b + 1] - first[b]) +
+                          m_cloth.countOf(b) + kUsualRebounds;
         if (count > reported.capacity()) reported.reserve(std::max(count, 2 * reported.capacity()));
     }
 }
@@ -223,10 +224,11 @@ void btFemContactGroup::reportRebound(const GivenRebound& given, const std::vect
     const Impact& impact = given.m_impact;
     const auto recordOf = [&records](const FemSoftBody* fem)
     { return *std::find_if(records.begin(), records.end(), [fem](const auto* r) { return &r->fem() == fem; }); };
-    noteRebound(*recordOf(given.m_body), {impact.m_other, impact.m_otherId, impact.m_component, impact.m_point,
-                                          impact.m_normal, given.m_impulse});
-    if (!given.m_otherBody) return;
-    const btCollisionObject* body = given.m_body->m_softBody;
-    noteRebound(*recordOf(given.m_otherBody), {body, broadphaseId(*body), impact.m_otherComponent, impact.m_point,
-                                               -impact.m_normal, -given.m_impulse});
+    if (given.m_body)
+        noteRebound(*recordOf(given.m_body), {impact.m_other, impact.m_otherId, impact.m_component, impact.m_point,
+                                              impact.m_normal, given.m_impulse});
+    if (given.m_otherBody)
+        noteRebound(*recordOf(given.m_otherBody),
+                    {given.m_object, broadphaseId(*given.m_object), impact.m_otherComponent, impact.m_point,
+                     -impact.m_normal, -given.m_impulse});
 }

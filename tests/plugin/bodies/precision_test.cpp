@@ -33,6 +33,7 @@ std::vector<Vec3> placesAfterAFall(const Vec3& origin, Coupling coupling)
 {
     btFemSolverInfo info;
     info.m_tolerance = btScalar(1e-8);  // element kernels in double precision
+    info.m_elasticRebound = false;      // found with factors in single precision
     btFemSoftBodySolver fem(info);
     SoftWorld world(fem, coupling);
     RigidSettings floor;

@@ -23,7 +23,8 @@ constexpr double kRestitution = kSoftRestitution * kFloorRestitution;  // Bullet
 class Bounce : public EachWorldWith<int>  // steps per second
 {
 protected:
-    explicit Bounce(const btVector3& gravity = {0, 0, btScalar(-kGravity)}) : m_world(worldClass(), gravity)
+    explicit Bounce(const btVector3& gravity = {0, 0, btScalar(-kGravity)}, const btFemSolverInfo& info = {})
+        : m_world(worldClass(), info, gravity)
     {
         m_floor = &m_world.addFloorBox();
         m_floor->setRestitution(btScalar(kFloorRestitution));
@@ -124,7 +125,20 @@ TEST_P(Bounce, AStiffBallRisesToTheSquareOfItsRestitution)
     EXPECT_NEAR(apex, expected, (0.04 + 3 * kGravity * m_h / speed) * expected);
 }
 
-TEST_P(Bounce, StiffBallStaysWithoutRestitution)
+class BounceOfTheStep : public Bounce
+{
+protected:
+    BounceOfTheStep() : Bounce({0, 0, btScalar(-kGravity)}, withoutElasticRebound()) {}
+
+    static btFemSolverInfo withoutElasticRebound()
+    {
+        btFemSolverInfo info;
+        info.m_elasticRebound = false;
+        return info;
+    }
+};
+
+TEST_P(BounceOfTheStep, StiffBallStaysWithoutRestitution)
 {
     btSoftBody& ball = addBall(1 + kRadius);
     ball.setRestitution(0);
@@ -182,6 +196,8 @@ std::string rateName(int stepsPerSecond)
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, Bounce, testing::Combine(eachWorld(), testing::Values(60, 240)),
+                         nameOfWorldWith(rateName));
+INSTANTIATE_TEST_SUITE_P(Contact, BounceOfTheStep, testing::Combine(eachWorld(), testing::Values(60, 240)),
                          nameOfWorldWith(rateName));
 INSTANTIATE_TEST_SUITE_P(Contact, BounceInSpace, testing::Combine(eachWorld(), testing::Values(60, 240)),
                          nameOfWorldWith(rateName));

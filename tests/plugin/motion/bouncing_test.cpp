@@ -129,6 +129,7 @@ private:
         btFemSolverInfo info;
         info.m_numericalDamping = btScalar(steps.m_numericalDamping);
         info.m_contactDamping = btScalar(steps.m_contactDamping);
+        info.m_elasticRebound = false;
         return info;
     }
 
@@ -198,8 +199,8 @@ protected:
     }
 };
 
-// The larger of the set restitution and the bodies' elastic rebound counts, which is measured with none set. Bodies
-// whose vibrations contain the remaining energy may return less.
+// The larger of the set restitution and the rebound that the step leaves counts, which is measured with none set.
+// Bodies whose vibrations contain the remaining energy may return less.
 TEST_P(Bouncing, ReturnsTheSetRestitution)
 {
     constexpr double kOff = 0.1;      // of the returns [-]

@@ -51,6 +51,8 @@ inline Motion motionOfLinks(btMultiBody& body)
 class MultiBodyWorldTest : public ::testing::Test
 {
 protected:
+    explicit MultiBodyWorldTest(const btFemSolverInfo& info = btFemSolverInfo()) : m_fem(info) {}
+
     // A box on a slider along `axis` whose joint is at the world's origin; the box starts at `center`.
     btMultiBodyLinkCollider& addSlider(MultiBodyWorld& world, btScalar mass, const btVector3& axis,
                                        const btVector3& half, const btVector3& center)
