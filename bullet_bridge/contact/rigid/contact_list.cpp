@@ -110,10 +110,11 @@ ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& t
     const Vec3& inverseMass = target.m_motion->m_inverseMass;
     contact.m_point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     contact.m_rigidProxy = target.m_rigidProxy;
-    contact.m_approach = target.m_moved;
+    if (target.m_object->isKinematicObject()) contact.m_approach = target.m_moved;
     contact.m_patch = patchOfFeature(scope, target, feature, {target, nodes, d.m_barycentric, d.m_normal});
+    contact.m_patch -= target.m_advance;
     contact.m_normal = d.m_normal;
-    contact.m_gap = d.m_gap;
+    contact.m_gap = d.m_gap + dot(d.m_normal, target.m_advance);
     if (target.m_object->isKinematicObject())
         contact.m_gap -= closedByArc(*target.m_motion, contact.m_point, d.m_normal, target.m_step);
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * scope.m_size;

@@ -73,13 +73,22 @@ void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
 }
 
 // Bullet has moved kinematic objects already, while their leaves are at the start of the step: moves the proxy back.
+// Rolling objects have been moved on with their leaves: the rest of their motion remains.
 const RigidProxy& ContactTargets::asTheStepBegan(const ContactObject& touched, const RigidSurroundings& around)
 {
     const RigidProxy& rigidProxy = around.m_rigidProxies[touched.m_rigidProxy];
-    if (!touched.m_object->isKinematicObject()) return rigidProxy;
+    const bool isKinematic = touched.m_object->isKinematicObject();
+    if (!isKinematic && dot(touched.m_advance, touched.m_advance) == 0) return rigidProxy;
     m_starts.push_back(rigidProxy);
-    m_starts.back().m_center -= around.m_step * rigidProxy.m_linearVelocity;
-    return m_starts.back();
+    RigidProxy& start = m_starts.back();
+    if (isKinematic)
+        start.m_center -= around.m_step * rigidProxy.m_linearVelocity;
+    else
+    {
+        start.m_center += touched.m_advance;
+        start.m_linearVelocity -= (1 / around.m_step) * touched.m_advance;
+    }
+    return start;
 }
 
 void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
@@ -105,7 +114,7 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
             m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
                                  around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
                                  softReach + around.m_step * fastestPoint(rigidProxy, shape), Vec3(), around.m_step,
-                                 &touched.m_carrying, TargetKind::slow, 0, 0, 0, 0});
+                                 &touched.m_carrying, touched.m_advance, TargetKind::slow, 0, 0, 0, 0});
             m_targets.back().m_fall = fallOf(fem, m_targets.back());
             m_targets.back().m_reach += norm(m_targets.back().m_fall);
         }

@@ -29,6 +29,7 @@ struct ContactObject
     int m_firstLeaf, m_leafCount;  ///< leaves of its shape, posed as its rigid proxy is
     bool m_unknownShape;           ///< a part of its shape has no contact support
     CarryingPlane m_carrying;
+    Vec3 m_advance;  ///< displacement along the soft surfaces that it rolls on, which its leaves have made already [m]
 };
 
 /// Input of a body's contact search.
@@ -69,6 +70,7 @@ struct ContactTarget
     Vec3 m_fall;    ///< displacement by gravity that is missing in the free approach if one of the two is supported [m]
     double m_step;  ///< [s]
     const CarryingPlane* m_carrying;
+    Vec3 m_advance;  ///< see ContactObject; m_motion begins after it
     TargetKind m_kind;
     std::size_t m_first, m_end;          ///< range of its contacts in the list of near ones
     std::size_t m_firstSide, m_endSide;  ///< range in SheetSearch::sides(), of sheets
@@ -91,7 +93,7 @@ private:
     const RigidProxy& asTheStepBegan(const ContactObject& touched, const RigidSurroundings& around);
 
     std::vector<ContactTarget> m_targets;
-    std::vector<RigidProxy> m_starts;  // proxies of kinematic objects as the step begins
+    std::vector<RigidProxy> m_starts;  // proxies of kinematic objects as the step begins, of rolling ones as advanced
 };
 
 /// The target's motion within the step.

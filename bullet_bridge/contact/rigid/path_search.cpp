@@ -90,11 +90,11 @@ void setLevers(const SearchScope& scope, const ContactTarget& target, int featur
     const Vec3& spin = target.m_motion->m_angularVelocity;
     const bool rolls = (point.m_curvature > 0 && dot(spin, spin) > 0) ||
                        (isNode && roundness(fem.m_surface.curvature().m_largest[feature], scope.m_size) > 0);
-    if (isNode) contact.m_patch = patchOf(scope, target, point, met.m_time);
+    if (isNode) contact.m_patch = patchOf(scope, target, point, met.m_time) - target.m_advance;
     if (rolls && contact.m_gap < kRollingGap * scope.m_size) return;
     if (!isNode) contact.m_patch = {};
     contact.m_isMetLater = true;
-    contact.m_approach += met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
+    contact.m_approach = target.m_moved + met.m_arm - (contact.m_point + contact.m_patch - target.m_motion->m_center);
 }
 
 // Keeps the first point of a feature that is met, if that is before `earliest` [s]. Overlapping points count as met

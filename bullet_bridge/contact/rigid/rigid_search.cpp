@@ -11,6 +11,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "bullet_bridge/geometry/shapes/rolling_curvature.h"
 #include "bullet_bridge/geometry/shapes/triangle_soup.h"
 #include "bullet_fem/fem/common/threads.h"
 
@@ -35,6 +36,13 @@ btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
 void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, const Vec3& present, double step)
 {
     leaf = movedBack(leaf, {present, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity}, step);
+}
+
+void moveOn(ShapeLeaf& leaf, const Vec3& way)
+{
+    leaf.m_pose.m_origin += way;
+    leaf.m_boundsMin += way;
+    leaf.m_boundsMax += way;
 }
 
 // True if distances to a shape may be computed on several threads: closed forms, and this library's own search over
@@ -149,23 +157,26 @@ void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
             {
                 const ContactPoint& contact = fem->m_memory.m_contacts[k];
                 const double size = dot(contact.m_impulse, contact.m_normal);
-                const Carried key = {fem->m_memory.m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
+                Carried key = {};
+                key.m_objectId = fem->m_memory.m_origins[k].m_objectId;
                 if (size > 0)
-                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact);
+                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact, *fem);
             }
     };
     m_carried.clear();
     forEachPush(
-        [&](auto at, const Carried& key, double size, const ContactPoint& contact)
+        [&](auto at, const Carried& key, double size, const ContactPoint& contact, const FemSoftBody& fem)
         {
             if (at == m_carried.end() || at->m_objectId != key.m_objectId) at = m_carried.insert(at, key);
             at->m_sum += size;
+            at->m_push += size * contact.m_normal;
+            at->m_momentum += size * contact.m_soft.of(fem.m_body.m_state.m_v);
             if (size <= at->m_largest) return;
             at->m_largest = size;
             at->m_normal = contact.m_normal;
         });
     forEachPush(
-        [&](auto at, const Carried&, double size, const ContactPoint& contact)
+        [&](auto at, const Carried&, double size, const ContactPoint& contact, const FemSoftBody&)
         {
             if (dot(contact.m_normal, at->m_normal) < kOneFaceCosine) return;
             ++at->m_count;
@@ -174,16 +185,37 @@ void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
         });
 }
 
+const RigidSearch::Carried* RigidSearch::carriedBy(const btCollisionObject& object) const
+{
+    const int id = broadphaseId(object);
+    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
+                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
+    return at == m_carried.end() || at->m_objectId != id ? nullptr : &*at;
+}
+
+// The way that a round object makes in a step along the soft surfaces that carried it in the last one.
+Vec3 RigidSearch::advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy,
+                            double step) const
+{
+    const Carried* carried = object.isStaticOrKinematicObject() ? nullptr : carriedBy(object);
+    const double push = carried ? norm(carried->m_push) : 0;
+    if (!(push > 0) || push < kCarriedShare * carried->m_sum) return {};
+    const Vec3 normal = (1 / push) * carried->m_push;
+    const double curvature = rollingCurvature(leaf, normal, proxy.m_angularVelocity);
+    if (!(curvature > 0)) return {};
+    const Vec3 way = step * (proxy.m_linearVelocity - (1 / carried->m_sum) * carried->m_momentum);
+    const Vec3 along = way - dot(way, normal) * normal;
+    return curvature * norm(along) < 1 ? along : Vec3();
+}
+
 // The plane by which a moving object lay on soft bodies in the last step, moved on to the start of this one.
 CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
                                            double step) const
 {
     CarryingPlane plane;
     if (norm(rigidProxy.m_linearVelocity) == 0) return plane;
-    const int id = broadphaseId(object);
-    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
-                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
-    if (at == m_carried.end() || at->m_objectId != id) return plane;
+    const Carried* at = carriedBy(object);
+    if (!at) return plane;
     if (at->m_count < kFewest || at->m_onFace < kCarriedShare * at->m_sum) return plane;
     plane.m_exists = true;
     plane.m_normal = at->m_normal;
@@ -211,7 +243,7 @@ void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigi
         const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
         touching.m_alone = touching.m_alone || shape.m_alone;
         m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
-                             carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step)});
+                             carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step), shape.m_advance});
     }
     m_overlapping.push_back(touching);
 }
@@ -257,6 +289,11 @@ const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& obj
         else if (object.isKinematicObject())
             moveBack(m_leaves[l], proxy, proxy.m_center, step);
         range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
+    }
+    if (range.m_count == 1)
+    {
+        range.m_advance = advanceOf(object, m_leaves[range.m_first], proxy, step);
+        moveOn(m_leaves[range.m_first], range.m_advance);
     }
     return range;
 }

@@ -48,10 +48,10 @@ private:
     {
         int m_first = -1, m_count = 0;  // range of m_leaves
         bool m_unknown = false, m_alone = false;
+        Vec3 m_advance;  // see ContactObject
     };
 
     void listCarrying(const std::vector<FemSoftBody*>& bodies);
-    CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     void listOverlapping(const std::vector<FemSoftBody*>& bodies);
     void removeGone(FemSoftBody& fem, int body) const;
     void listContacts(FemSoftBody& fem, double step, RigidProxies& rigidProxies);
@@ -68,8 +68,13 @@ private:
         double m_onFace;   // sum of their normal impulses [N s]
         Vec3 m_normal;     // unit, from the object to the soft bodies
         Vec3 m_foot;       // sum of their points on the object times their normal impulses [N s m]
+        Vec3 m_push;       // sum of all impulses along their normals [N s]
+        Vec3 m_momentum;   // sum of the soft bodies' present velocities there times the normal impulses [N m]
     };
 
+    const Carried* carriedBy(const btCollisionObject& object) const;
+    CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
+    Vec3 advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy, double step) const;
     bool givesTriangles(const ShapeLeaf& leaf);
 
     const Threads& m_threads;

@@ -72,10 +72,12 @@ class RigidRollers : public testing::TestWithParam<std::tuple<Roller, Coupling>>
 };
 
 // Its load must act below the centre, where it is at the end of the step: v h behind, a cylinder would lose 2/3 g v h /
-// R [m/s2], which leaves .93 m/s after a second. Steps of 1/1920 s leave 1.45.
+// R [m/s2], which leaves .93 m/s after a second. Steps of 1/1920 s leave 1.45. The facets of a hull turn within the
+// step.
 TEST_P(RigidRollers, CoastOnASoftSlab)
 {
     const auto [roller, coupling] = GetParam();
+    const double kept = roller == Roller::hull ? 0.8 : 0.86;
     FemWorld world(WorldClass::softRigid, coupling);
     world.addFloorBox();
     SoftBox box;
@@ -90,7 +92,7 @@ TEST_P(RigidRollers, CoastOnASoftSlab)
     world.step(60);
     roll(body);
     world.step(60);
-    EXPECT_GT(double(body.getLinearVelocity().x()), 0.8 * kRollerSpeed);
+    EXPECT_GT(double(body.getLinearVelocity().x()), kept * kRollerSpeed);
     EXPECT_LT(double(body.getLinearVelocity().x()), kRollerSpeed);
     EXPECT_NEAR(double(body.getAngularVelocity().y()) * kRollerRadius, double(body.getLinearVelocity().x()),
                 0.1 * kRollerSpeed);
