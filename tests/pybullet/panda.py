@@ -3,7 +3,7 @@
 """pybullet's Panda grasps a soft ball of 70 mm and 80 g with 8 N a finger, lifts and holds it: panda.py <output>.
 
 Writes, as JSON: how high it lifts the ball [m], by how much the ball slips in the hand meanwhile [m], the ball's extent
-in the end over that at rest, and the time of a step [ms]."""
+in the end over that at rest, and the processor time of a step [ms]."""
 import json
 import sys
 import time
@@ -62,9 +62,9 @@ def move(panda, heights):
     for height in heights:
         p.setJointMotorControlArray(panda, range(7), p.POSITION_CONTROL, targetPositions=angles_of(panda, height), forces=[200] * 7)
         p.setJointMotorControlArray(panda, FINGERS, p.POSITION_CONTROL, targetPositions=[0, 0], forces=[FORCE] * 2)
-        start = time.perf_counter()
+        start = time.process_time()
         p.stepSimulation()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return times
 
 

@@ -2,7 +2,7 @@
 # Copyright (c) 2026 The BulletFEM authors
 """Runs an example of pybullet unedited, without a window and for some steps: run_example.py <example> <steps> <output>.
 
-Writes, as JSON, the time of a step [ms], and for each body the nodes of a soft body, or place and orientation, as
+Writes, as JSON, the processor time of a step [ms], and for each body the nodes of a soft body, or place and orientation, as
 hexadecimal numbers."""
 import itertools
 import json
@@ -20,9 +20,9 @@ def main(example, steps, output):
     times, count = [], itertools.count()
 
     def timed():
-        start = time.perf_counter()
+        start = time.process_time()
         step()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
 
     p.connect = lambda *_: connect(p.DIRECT)
     p.stepSimulation = timed

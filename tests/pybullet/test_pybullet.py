@@ -97,3 +97,21 @@ def test_a_panda_lifts_a_soft_ball(pybullet, tmp_path):
     result = json.loads(output.read_text())
     assert result["lifted"] > 0.1 and result["slip"] < 0.002
     assert all(0.7 < extent < 1.3 for extent in result["extent"])
+
+
+def test_pybullet_and_bulletfem_work_in_one_process(pybullet):
+    """Both have a Bullet in double precision, and export nothing but their initialization."""
+    bulletfem = pytest.importorskip("bulletfem", reason="the module bulletfem is not in PYTHONPATH")
+    ball = pybullet.loadSoftBody("ball.vtk", basePosition=[0, 0, 0.5], scale=0.3, **BALL)
+    world = bulletfem.World()
+    world.add_rigid_body(bulletfem.Shape.plane())
+    cube = world.add_soft_body(bulletfem.Mesh.box((0.2,) * 3, (2,) * 3, (0, 0.1, 0)), bulletfem.Material.rubber())
+    for _ in range(100):
+        pybullet.stepSimulation()
+        world.step()
+    assert 0 < positions(pybullet, ball)[:, 2].min() < 0.2 and abs(cube.positions[:, 1].min()) < 0.01
+
+
+def test_windows_are_refused(pybullet, capfd):
+    assert pybullet.connect(pybullet.GUI) == -1
+    assert "use pybullet.DIRECT" in capfd.readouterr().out
