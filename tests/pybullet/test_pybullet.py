@@ -71,8 +71,10 @@ def test_restored_states_continue_to_the_bit(pybullet):
         again = run_on()
         assert np.array_equal(again[0], first[0]) and again[1:] == first[1:]
     pybullet.loadURDF("cube_small.urdf", [2, 0, 1])
+    before = pybullet.getBasePositionAndOrientation(box)
     with pytest.raises(pybullet.error):
         pybullet.restoreState(state)
+    assert pybullet.getBasePositionAndOrientation(box) == before  # nothing changed
     pybullet.removeState(state)
 
 

@@ -27,6 +27,10 @@ INSERTIONS = (
     Insertion("saveState", "sd.m_serializer = ser;",
               "if (!fem_world::save(*m_data->m_dynamicsWorld, m_data->m_deformablebodySolver, sd.m_femState))\n"
               "\tserverCmd.m_type = CMD_SAVE_STATE_FAILED;"),
+    # A state that does not fit is refused before Bullet changes rigid bodies; behind Bullet's part ours is the last word.
+    Insertion("check of restoreState", "ok = importer->convertAllObjects(bulletFile);",
+              "if (fem_world::restore(*m_data->m_dynamicsWorld, m_data->m_deformablebodySolver,\n"
+              "\tm_data->m_savedStates[clientCmd.m_loadStateArguments.m_stateId].m_femState))", before=True),
     Insertion("restoreState", "ok = importer->convertAllObjects(bulletFile);",
               "ok = ok && fem_world::restore(*m_data->m_dynamicsWorld, m_data->m_deformablebodySolver,\n"
               "\tm_data->m_savedStates[clientCmd.m_loadStateArguments.m_stateId].m_femState);"),
