@@ -13,7 +13,8 @@ options=()
 if [ "${1-}" = --python ]; then
     programs=(bulletfem_python bulletfem_python_twin)
     labels='^python$'
-    options=(-DBULLETFEM_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3 -DBULLETFEM_PRECISIONS=float64)
+    options=(-DBULLETFEM_PYTHON=ON -DPython_EXECUTABLE=/usr/bin/python3 -DBULLETFEM_PRECISIONS=float64
+        -DBULLETFEM_VECTORS=static -DBULLETFEM_BUILD_SLOW_TESTS=OFF) # kernels for one instruction set, which are compiled sooner
     build=$build-python
     test_packages+=("${python_packages[@]}")
 fi
