@@ -39,7 +39,7 @@ bulletfem_install_targets(BulletFEMRuntimeTargets ${_runtimes})
 install(DIRECTORY include/bullet_fem DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 # By default users get the Bullet that BulletFEM was built with.
 set(BULLETFEM_BULLET_INSTALLED "")
-if(IS_DIRECTORY "${BULLETFEM_BULLET}")
+if(IS_DIRECTORY "${BULLETFEM_BULLET}" AND NOT BulletPrecisions_HEADERS_ALONE)
     set(BULLETFEM_BULLET_INSTALLED "${BULLETFEM_BULLET}")
 endif()
 configure_package_config_file(cmake/BulletFEMConfig.cmake.in "${PROJECT_BINARY_DIR}/BulletFEMConfig.cmake"

@@ -1,10 +1,20 @@
 # SPDX-License-Identifier: Zlib
 # Bullet's two precisions. Targets that include Bullet are built once for each of BULLETFEM_PRECISIONS, with Bullet's
 # suffix: none for float, "-float64" for float64. Source lists are written once.
-set(BULLETFEM_BULLET "" CACHE STRING "Which Bullet: targets (of this build), system, or the folder that it is installed in; \
-empty: targets where there are some, else system")
+set(BULLETFEM_BULLET "" CACHE STRING "Which Bullet: targets (of this build), system, the folder that it is installed in, or its source tree, \
+for static libraries alone; empty: targets where there are some, else system")
 set(BULLETFEM_BULLET_MINIMUM 3.23) # docs/compatibility.md, Which Bullet
 find_package(BulletPrecisions ${BULLETFEM_BULLET_MINIMUM} REQUIRED OPTIONAL_COMPONENTS float float64)
+
+if(BulletPrecisions_HEADERS_ALONE)
+    foreach(_part BULLETFEM_BUILD_TESTS BULLETFEM_BUILD_DEMOS BULLETFEM_BUILD_TOOLS BULLETFEM_BUILD_BENCHMARKS BULLETFEM_PYTHON
+            BUILD_SHARED_LIBS)
+        if(${_part})
+            message(FATAL_ERROR "${_part} is ON, but BULLETFEM_BULLET is a source tree, which has no libraries to link: "
+                "set it to OFF, or BULLETFEM_BULLET to an installation")
+        endif()
+    endforeach()
+endif()
 
 set(_found "")
 foreach(_precision float float64)

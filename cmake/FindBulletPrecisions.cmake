@@ -9,7 +9,8 @@
 # BULLETFEM_BULLET selects the Bullet to use:
 #   targets    that of this build: targets BulletSoftBody and so on of Bullet's own CMakeLists.txt, created before
 #   system     both precisions in one installation, as Debian ships them, in CMake's search path for libraries
-#   a folder   an installation by Bullet's own CMakeLists.txt, or Debian's layout below that folder
+#   a folder   an installation by Bullet's own CMakeLists.txt, or Debian's layout below that folder; or a source tree, of
+#              which targets have the headers alone: enough for static libraries
 # Empty: targets if they exist, else system.
 set(_parts LinearMath BulletCollision BulletDynamics BulletSoftBody)
 set(_suffix_float "")
@@ -22,7 +23,7 @@ elseif(NOT _bullet)
     set(_bullet system)
 endif()
 if(NOT _bullet MATCHES "^(targets|system)$" AND NOT IS_DIRECTORY "${_bullet}")
-    message(FATAL_ERROR "BULLETFEM_BULLET is ${_bullet}: it must be targets, system or a folder that Bullet is installed in")
+    message(FATAL_ERROR "BULLETFEM_BULLET is ${_bullet}: it must be targets, system or a folder that Bullet is installed in, or its source")
 endif()
 
 # Results of another choice are discarded.
@@ -37,6 +38,7 @@ set(BulletPrecisions_CHOICE "${_bullet}" CACHE INTERNAL "The Bullet that was fou
 
 set(BulletPrecisions_float_FOUND FALSE)
 set(BulletPrecisions_float64_FOUND FALSE)
+set(BulletPrecisions_HEADERS_ALONE FALSE)
 if(_bullet STREQUAL "targets")
     foreach(_part IN LISTS _parts)
         if(NOT TARGET ${_part})
@@ -53,6 +55,11 @@ if(_bullet STREQUAL "targets")
     else()
         set(BulletPrecisions_float_FOUND TRUE)
     endif()
+elseif(EXISTS "${_bullet}/src/btBulletDynamicsCommon.h")
+    set(BulletPrecisions_INCLUDE_DIR "${_bullet}/src")
+    set(BulletPrecisions_HEADERS_ALONE TRUE)
+    set(BulletPrecisions_float_FOUND TRUE)
+    set(BulletPrecisions_float64_FOUND TRUE)
 else()
     set(_where "")
     if(NOT _bullet STREQUAL "system")
@@ -111,6 +118,8 @@ foreach(_precision float float64)
         if(_bullet STREQUAL "targets")
             add_library(${_target} INTERFACE IMPORTED GLOBAL)
             list(PREPEND _below ${_part})
+        elseif(BulletPrecisions_HEADERS_ALONE)
+            add_library(${_target} INTERFACE IMPORTED GLOBAL)
         else()
             add_library(${_target} UNKNOWN IMPORTED)
             set_target_properties(${_target} PROPERTIES

@@ -50,10 +50,10 @@ struct BakedBody;  // bullet_fem/fem/baked/baked_body.h
 /// setActivationState(DISABLE_DEACTIVATION) keeps a body awake.
 ///
 /// Bullet's m_rcontacts and m_faceRigidContacts list the contacts() with rigid objects that carry an impulse or have no
-/// gap, with the nearest node and with the face of the point. Valid until the next step; empty while the body is not
-/// active, and after it leaves the world (if its m_worldInfo has the world's dispatcher; contacts with another object
-/// end when that leaves). Bullet does not solve them. m_fdbvt serves Bullet's rayTest; its boxes do not bound the
-/// faces.
+/// gap, with the nearest node and with the face of the point. Valid until the next step, and in sleep; empty with
+/// DISABLE_SIMULATION, and after the body leaves the world (if its m_worldInfo has the world's dispatcher; contacts
+/// with another object end when that leaves). Bullet does not solve them. m_fdbvt serves Bullet's rayTest; its boxes do
+/// not bound the faces.
 ///
 /// Bodies are identified by address and by a mark, set when they are first stepped or prepared, in a field of their
 /// first tetrahedron that Bullet 3.24 does not use (m_tetras[0].m_c0; cages also use m_c1 and m_c2 of all). Settings of

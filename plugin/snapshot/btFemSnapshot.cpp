@@ -8,6 +8,7 @@
 #include <string>
 
 #include "BulletSoftBody/btSoftBody.h"
+#include "bullet_bridge/body/rigid_dispatch.h"
 #include "plugin/snapshot/btFemEnvelope.h"
 #include "plugin/snapshot/btFemRecordSnapshot.h"
 
@@ -148,6 +149,7 @@ void restoreChecked(const btFemSnapshotScope& scope, const CheckedSnapshot& chec
     {
         scope.m_setUp.giveFactors(*bodies[b], checked.m_models[b].m_model, checked.m_models[b].m_former);
         restore(snapshot.m_bodies[b], checked.m_world, *bodies[b]);
+        clearBulletContacts(*bodies[b]->m_softBody);  // a sleeping body would keep those of another time
     }
     scope.m_registry.putFirst(bodies);
     scope.m_group.softPairs().restore(snapshot.m_softPairs);

@@ -79,6 +79,28 @@ btSoftBody::Face* faceAt(const btFemContact& contact, const btFemBodyRecord& rec
     return nullptr;
 }
 
+// Bullet from 3.26 on keeps the impulse on the rigid object [N s], of which pybullet makes contact forces.
+template <class Info>
+auto setImpulse(Info& info, const btVector3& impulse, int) -> decltype(info.m_impulse, void())
+{
+    info.m_impulse = impulse;
+}
+
+template <class Info>
+void setImpulse(Info&, const btVector3&, long)
+{
+}
+
+// Sets two unit tangents, the first along the friction on the soft body if that is more than rounding of the impulse.
+void setTangents(btVector3& t1, btVector3& t2, const btFemContact& contact)
+{
+    btPlaneSpace1(contact.m_normal, t1, t2);
+    const btVector3& friction = contact.m_frictionImpulse;
+    if (friction.length2() <= SIMD_EPSILON * contact.m_impulse.length2()) return;
+    t1 = friction.normalized();
+    t2 = contact.m_normal.cross(t1);
+}
+
 // Fills the members that both kinds of contact have. A zero impulse matrix and inverse mass keep solvers from acting on
 // them.
 template <class Contact>
@@ -89,10 +111,11 @@ void fill(Contact& to, const btFemContact& contact)
     to.m_cti.m_normal = contact.m_normal;
     to.m_cti.m_offset = contact.m_gap - contact.m_normal.dot(contact.m_point);
     to.m_cti.m_bary = zero;
+    setImpulse(to.m_cti, -contact.m_impulse, 0);
     to.m_c0.setValue(0, 0, 0, 0, 0, 0, 0, 0, 0);
     to.m_c1 = contact.m_point - contact.m_other->getWorldTransform().getOrigin();
     to.m_c2 = to.m_c3 = to.m_c4 = 0;
-    to.t1 = to.t2 = zero;
+    setTangents(to.t1, to.t2, contact);
 }
 
 // Appends in place, as copies of a contact would copy its multibody data.

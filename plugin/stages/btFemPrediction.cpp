@@ -94,6 +94,8 @@ void prepareForCollision(const btFemRecords& records)
         if (!record->isStepped()) continue;
         hideClusterJoints(record->fem());
         keepFaceTree(*record->m_softBody);
-        clearBulletContacts(*record->m_softBody);
+        // A body keeps its contacts in sleep, which Bullet begins within the step after it is wanted.
+        const int activation = record->m_softBody->getActivationState();
+        if (activation != ISLAND_SLEEPING && activation != WANTS_DEACTIVATION) clearBulletContacts(*record->m_softBody);
     }
 }

@@ -7,6 +7,8 @@ are fresh, contiguous and of float64 or int32; those named *_view share the memo
 """
 from __future__ import annotations
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING, Any as _Any
+
 from ._core import (
     BakedBody,
     ElementMaterials,
@@ -25,10 +27,22 @@ from ._core import (
     touch_dtype,
 )
 from ._batch import Batch
-from ._environment import SqueezeAndLift
 from ._fit import Fit, fit, map
 from ._png import png as _png
 from ._recipe import make, reduce as _reduce
+
+if _TYPE_CHECKING:
+    from ._environment import SqueezeAndLift
+
+
+def __getattr__(name: str) -> _Any:
+    """Imports the environment when it is first named, since gymnasium takes longer than this module."""
+    if name != "SqueezeAndLift":
+        raise AttributeError(f"module 'bulletfem' has no attribute {name!r}")
+    from ._environment import SqueezeAndLift
+
+    globals()[name] = SqueezeAndLift
+    return SqueezeAndLift
 
 
 def _repr_png_(self: World) -> bytes | None:

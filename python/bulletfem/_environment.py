@@ -14,6 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 from ._batch import Batch
 from . import _core
 
+_HAS_GYMNASIUM = find_spec("gymnasium") is not None
+_Base: Any = import_module("gymnasium.vector").VectorEnv if _HAS_GYMNASIUM else object
+
 _RADIUS = 0.05  # of the ball [m]
 _START = 0.13  # distance of the plates at the beginning [m]
 _NARROWEST = 0.05  # smallest distance of the plates [m]
@@ -33,7 +36,7 @@ class _Box(typing.NamedTuple):
 
 def _box(low: ArrayLike, high: ArrayLike, shape: tuple[int, ...]) -> Any:
     lowest, highest = (np.broadcast_to(np.asarray(bound, float), shape).copy() for bound in (low, high))
-    if find_spec("gymnasium") is None:
+    if not _HAS_GYMNASIUM:
         return _Box(lowest, highest, shape)
     return import_module("gymnasium.spaces").Box(lowest, highest, dtype=np.float64)
 
@@ -50,8 +53,9 @@ def _build(young: float) -> _core.World:
     return world
 
 
-class SqueezeAndLift:
-    """n copies of a ball between two plates, each an environment of gymnasium's VectorEnv.
+class SqueezeAndLift(_Base):  # type: ignore[misc]
+    """n copies of a ball between two plates, each an environment of gymnasium's VectorEnv: that is its base class where
+    gymnasium is installed.
 
     An action (n, 2), in [-1, 1], is the speed at which the plates close and that at which they rise, in .2 m/s. An
     observation (n, 5) has the distance of the plates and their height [m], the height and the vertical speed of the
@@ -80,7 +84,8 @@ class SqueezeAndLift:
         self.batch = Batch(_build, num_envs, threads=threads, young=young)
         self.num_envs, self._mode = num_envs, mode
         self._goal, self._length, self._repeat = goal, length, repeat
-        self.metadata = {**type(self).metadata, "autoreset_mode": autoreset_mode}
+        modes: Any = import_module("gymnasium.vector").AutoresetMode if _HAS_GYMNASIUM else str
+        self.metadata = {**type(self).metadata, "autoreset_mode": modes(mode)}
         self.single_action_space, self.action_space = (_box(-1, 1, shape) for shape in ((2,), (num_envs, 2)))
         self.single_observation_space, self.observation_space = (
             _box(-np.inf, np.inf, shape) for shape in ((5,), (num_envs, 5))
@@ -131,7 +136,7 @@ class SqueezeAndLift:
             observations = self._observe()
         return observations, rewards, terminations, truncations, infos
 
-    def close(self) -> None:
+    def close(self, **_: Any) -> None:
         """As gymnasium wants it."""
 
     def _move(self, speeds: NDArray[np.float64]) -> None:

@@ -189,9 +189,11 @@ void bindBatch(py::module_& module)
     py::class_<SharedBodies>(module, "_SharedBodies", py::module_local()).def(py::init<>());
     BatchClass batch(module, "_Batch", py::module_local(), "Worlds of equal bodies that threads step together.");
     batch.def(py::init(&newBatch), py::arg("worlds"), py::arg("threads") = 0)
-        .def("__len__", &Batch::size)
-        .def_property_readonly("worlds", &Batch::worlds, "The worlds, a list.")
-        .def_property_readonly("threads", &Batch::threads, "Threads that step the worlds.")
+        .def("__len__", [](const Batch& self) { return self.size(); })
+        .def_property_readonly(
+            "worlds", [](const Batch& self) { return self.worlds(); }, "The worlds, a list.")
+        .def_property_readonly(
+            "threads", [](const Batch& self) { return self.threads(); }, "Threads that step the worlds.")
         .def("step", &step, py::arg("n") = 1, "Makes n steps of every world, and renews the arrays after each.")
         .def(
             "refresh", [](Batch& self) { mustBeIdle(self), self.refresh(); },

@@ -125,7 +125,7 @@ void bindMakers(WorldClass& world)
              "[m/s], fixed nodes `pins` (p,), and a distance that it keeps from others, `contact_offset` [m]. Bodies "
              "meet\n"
              "if the group of each, a bit, is in the mask of the other. Factors its matrix, unless it is baked.")
-        .def("add_rigid_body", &addRigidBody, py::arg("shape"), py::arg("mass") = 0, py::kw_only(),
+        .def("add_rigid_body", &addRigidBody, py::arg("shape").none(false), py::arg("mass") = 0, py::kw_only(),
              py::arg("position") = zero, py::arg("orientation") = unturned, py::arg("velocity") = zero,
              py::arg("angular_velocity") = zero, py::arg("friction") = 0.5, py::arg("restitution") = 0,
              py::arg("kinematic") = false, py::arg("name") = py::none(), py::arg("group") = 1, py::arg("mask") = -1,

@@ -272,7 +272,9 @@ void bindMaterials(py::module_& module)
                      return result.cast<Material>();
                  }),
              "A material of the given values, which are those of the attributes.")
-        .def("validate", &Material::validate, "Raises ValueError if values are out of range or contradict each other.")
+        .def(
+            "validate", [](const Material& self) { self.validate(); },
+            "Raises ValueError if values are out of range or contradict each other.")
         .def(
             "copy", [](const Material& self) { return self; }, "An independent copy.")
         .def("__copy__", [](const Material& self) { return self; })

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 
+#include "BulletCollision/CollisionShapes/btCompoundShape.h"
+#include "BulletCollision/CollisionShapes/btShapeHull.h"
 #include "bullet_fem/btFemVectors.h"
+#include "python/core/world_robots.h"
 #include "tools/pictures/offscreen_renderer.h"
 #endif
 
@@ -53,6 +56,30 @@ void addStress(PictureMesh& mesh, const btFemSoftBodySolver& fem, const btSoftBo
     hottest = std::max(hottest, *quantile);
 }
 
+// The hulls of a link's shapes.
+PictureMesh meshOf(const btMultiBodyLinkCollider& link)
+{
+    PictureMesh mesh;
+    mesh.m_colour = {0.55, 0.60, 0.68};
+    const auto& compound = static_cast<const btCompoundShape&>(*link.getCollisionShape());
+    for (int k = 0; k < compound.getNumChildShapes(); ++k)
+    {
+        btShapeHull hull(static_cast<const btConvexShape*>(compound.getChildShape(k)));
+        hull.buildHull(0, 1);
+        const btTransform pose = link.getWorldTransform() * compound.getChildTransform(k);
+        const int first = int(mesh.m_positions.size());
+        for (int i = 0; i < hull.numVertices(); ++i)
+            mesh.m_positions.push_back(vec3(pose * hull.getVertexPointer()[i]));
+        for (int i = 0; i < hull.numTriangles(); ++i)
+        {
+            Triangle triangle;
+            for (int a = 0; a < 3; ++a) triangle[a] = first + int(hull.getIndexPointer()[3 * i + a]);
+            mesh.m_triangles.push_back(triangle);
+        }
+    }
+    return mesh;
+}
+
 PictureScene sceneOf(World& world, bool stress)
 {
     PictureScene scene;
@@ -81,6 +108,15 @@ PictureScene sceneOf(World& world, bool stress)
         mesh.m_triangles = drawn.m_triangles;
         for (const Vec3& vertex : drawn.m_vertices) mesh.m_positions.push_back(vec3(pose * bulletVector(vertex)));
         scene.m_meshes.push_back(std::move(mesh));
+    }
+    for (int k = 0; k < WorldRobots::count(world); ++k)
+    {
+        Robot& robot = WorldRobots::robot(world, k);
+        for (int link = 0; link < robot.linkCount(); ++link)
+        {
+            PictureMesh mesh = meshOf(robot.collider(link));
+            if (!mesh.m_triangles.empty()) scene.m_meshes.push_back(std::move(mesh));
+        }
     }
     scene.m_colourScale = {0, hottest, "von Mises stress", "Pa", true};
     return scene;

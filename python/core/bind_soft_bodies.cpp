@@ -135,8 +135,10 @@ void addSettings(SoftClass& body)
 
 void addMesh(SoftClass& body)
 {
-    body.def_property_readonly("node_count", &SoftHandle::nodeCount, "Number of nodes n.")
-        .def_property_readonly("tet_count", &SoftHandle::tetCount, "Number of elements m.")
+    body.def_property_readonly(
+            "node_count", [](const SoftHandle& self) { return self.nodeCount(); }, "Number of nodes n.")
+        .def_property_readonly(
+            "tet_count", [](const SoftHandle& self) { return self.tetCount(); }, "Number of elements m.")
         .def_property_readonly(
             "tets",
             [](const SoftHandle& self)

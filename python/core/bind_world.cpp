@@ -64,6 +64,7 @@ py::object fromRememberedScene(const std::filesystem::path& path)
 
 py::list bodiesOf(const WorldPointer& world, bool soft)
 {
+    if (!world) throw py::type_error("self is None: it must be a World");
     world->guard().reading();
     py::list list;
     for (int i = 0; i < world->bodies().size(); ++i)
@@ -155,7 +156,8 @@ WorldClass bindWorld(py::module_& module)
                 self.setGravity(vectorOf(gravity, "gravity"));
             },
             "Gravity (3,) [m/s2]; setting it wakes all bodies.")
-        .def_property_readonly("step_size", &World::stepSize, "Time step [s].")
+        .def_property_readonly(
+            "step_size", [](const World& self) { return self.stepSize(); }, "Time step [s].")
         .def_property_readonly(
             "steps", [](World& self) { return self.steps(); }, "Number of steps made.")
         .def_property_readonly(

@@ -118,4 +118,9 @@ Robot& WorldRobots::robot(World& world, int index)
     return *world.m_robots.at(std::size_t(index));
 }
 
+int WorldRobots::count(const World& world)
+{
+    return int(world.m_robots.size());
+}
+
 }  // namespace bullet_fem::python

@@ -25,6 +25,7 @@ struct WorldRobots
     static Added add(World& world, const UrdfRobot& robot, const btTransform& base, bool isFixed,
                      const std::string& name);
     static Robot& robot(World& world, int index);
+    static int count(const World& world);
 };
 
 }  // namespace bullet_fem::python

@@ -4,7 +4,8 @@
 # subproject: a parent project of BulletFEM configures; BulletFEM's sources are optimized, the parent's by its own
 # options.
 # oldBullet: BulletFEM rejects a Bullet that is too old, before anything is compiled. otherBullet: an installation
-# rejects another Bullet than the one it was built with.
+# rejects another Bullet than the one it was built with. bulletSource: a source tree of Bullet serves libraries, in both
+# precisions, and no programs.
 file(REMOVE_RECURSE "${BINARY}")
 set(configure ${CMAKE_COMMAND} -B "${BINARY}/build" -G "${GENERATOR}")
 
@@ -49,6 +50,23 @@ elseif(CASE STREQUAL "otherBullet")
     bullet_of(399)
     refuses("unsuitable version \"3[.]99\", but required is exact version" -S "${CMAKE_CURRENT_LIST_DIR}"
         "-DBULLETFEM_BULLET=${BINARY}/bullet" "-DCMAKE_PREFIX_PATH=${PREFIX}")
+elseif(CASE STREQUAL "bulletSource")
+    bullet_of(399)
+    file(RENAME "${BINARY}/bullet/include/bullet" "${BINARY}/bullet/src")
+    refuses("BULLETFEM_BUILD_TESTS is ON, but BULLETFEM_BULLET is a source tree" -S "${SOURCE}" "-DBULLETFEM_BULLET=${BINARY}/bullet")
+    set(off "")
+    foreach(part TESTS DEMOS TOOLS BENCHMARKS PICTURES)
+        list(APPEND off -DBULLETFEM_BUILD_${part}=OFF)
+    endforeach()
+    execute_process(COMMAND ${configure} -S "${SOURCE}" "-DBULLETFEM_BULLET=${BINARY}/bullet" ${off} -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+        COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+    file(READ "${BINARY}/build/compile_commands.json" commands)
+    foreach(flag "${BINARY}/bullet/src" "BT_USE_DOUBLE_PRECISION" "BULLETFEM_PRECISION_float ")
+        string(FIND "${commands}" "${flag}" at)
+        if(at EQUAL -1)
+            message(FATAL_ERROR "no command of the libraries has ${flag}")
+        endif()
+    endforeach()
 else()
     message(FATAL_ERROR "unknown case: ${CASE}")
 endif()

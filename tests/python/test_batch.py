@@ -217,6 +217,29 @@ def test_episodes_end_by_the_autoreset_mode(mode):
         assert np.array_equal(observations, first)
 
 
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])
+def test_gymnasium_takes_the_environment(mode):
+    """Its own wrapper counts the rewards and lengths of episodes."""
+    vector = pytest.importorskip("gymnasium.vector", reason="gymnasium is not installed")
+    from gymnasium.wrappers.vector import RecordEpisodeStatistics
+
+    environment = bf.SqueezeAndLift(2, length=3, autoreset_mode=vector.AutoresetMode(mode))
+    assert isinstance(environment, vector.VectorEnv)
+    counted = RecordEpisodeStatistics(environment)
+    observations, _ = counted.reset(seed=1)
+    assert observations in counted.observation_space
+    for _ in range(3):
+        observations, _, _, truncations, infos = counted.step(counted.action_space.sample())
+        assert observations in counted.observation_space
+    assert truncations.all() and infos["episode"]["l"].tolist() == [3, 3]
+    if mode == "Disabled":
+        counted.reset(options={"reset_mask": truncations})
+    for _ in range(3 + (mode == "NextStep")):
+        truncations = counted.step(counted.action_space.sample())[3]
+    assert truncations.all() and list(counted.length_queue) == [3, 3, 3, 3]
+    counted.close()
+
+
 def test_unusable_environments_are_refused():
     for settings in ({"autoreset_mode": "Never"}, {"length": 0}, {"goal": 0}):
         with pytest.raises(ValueError):

@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
 """Maps over executors, and fits."""
+import importlib.util
 import multiprocessing
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
@@ -41,6 +47,22 @@ def test_maps_keep_order_and_bits(kind):
             results = bf.map(continued, worlds, executor)
     for world, positions in zip(results, expected):
         assert world.steps == 20 and np.array_equal(world["cube"].positions, positions)
+
+
+EXECUTORS = {"dask": ("distributed", []),
+             "mpi": ("mpi4py", ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", sys.executable, "-m", "mpi4py.futures"])}
+
+
+@pytest.mark.parametrize("kind", EXECUTORS)
+def test_maps_over_machines_keep_bits(kind):
+    module, launcher = EXECUTORS[kind]
+    if importlib.util.find_spec(module) is None or launcher and not shutil.which(launcher[0]):
+        pytest.skip(f"there is no {module}: install python3-{module}")
+    here = pathlib.Path(__file__).parent
+    search = os.pathsep.join([str(here), str(pathlib.Path(bf.__file__).parents[1])])
+    done = subprocess.run([*(launcher or [sys.executable]), here / "executors.py", kind], env={**os.environ, "PYTHONPATH": search},
+                          capture_output=True, text=True, timeout=120)
+    assert done.stdout.endswith("3 equal\n"), done.stdout + done.stderr
 
 
 def press():

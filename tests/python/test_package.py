@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Zlib
 # Copyright (c) 2026 The BulletFEM authors
 """Documentation, stubs, examples, and equality with C++."""
+import importlib.util
 import inspect
 import os
 import pathlib
@@ -62,6 +63,25 @@ def test_document_runs(tmp_path):
         (tmp_path / "example.py").write_text(code[1])
         done = subprocess.run([sys.executable, tmp_path / "example.py"], env=ENVIRONMENT, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
+
+
+def test_notebook_runs_and_prints_what_it_shows():
+    for module in ("nbclient", "ipykernel"):
+        if importlib.util.find_spec(module) is None:
+            pytest.skip(f"there is no {module}: install python3-nbclient and python3-ipykernel")
+    code = """if True:
+        import sys, nbformat
+        from nbclient import NotebookClient
+        def text(notebook):
+            return [o["text"] for cell in notebook.cells for o in cell.get("outputs", []) if o["output_type"] == "stream"]
+        notebook = nbformat.read(sys.argv[1], 4)
+        before = text(notebook)
+        NotebookClient(notebook, kernel_name="python3", timeout=200).execute()
+        assert before and text(notebook) == before, text(notebook)
+        """
+    done = subprocess.run([sys.executable, "-c", code, ROOT / "python" / "examples" / "fit.ipynb"], env=ENVIRONMENT, capture_output=True,
+                          text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def tool(name):

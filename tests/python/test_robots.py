@@ -167,6 +167,16 @@ def test_grippers_with_soft_tips_lift_and_hold(tmp_path):
     assert np.isclose(robot.motor_forces[0], held, rtol=0.01)
 
 
+@pytest.mark.skipif(not bf.has_pictures, reason="built without pictures")
+def test_robots_are_drawn(tmp_path):
+    """A finger of .08 m between eye and target fills the middle of the picture."""
+    world, robot = gripper_scene(write_gripper(tmp_path))
+    view = dict(width=64, height=64, eye=(-0.6, 0, 0.05), target=(-0.085, 0, 0.05))
+    finger = world.render(**view)[32, 32]
+    robot.joint_positions = [0.5, 0, 0]
+    assert not np.array_equal(world.render(**view)[32, 32], finger)
+
+
 def test_robots_are_part_of_the_state(tmp_path):
     path = write_gripper(tmp_path)
     world, robot = gripper_scene(path)

@@ -113,6 +113,18 @@ def test_bad_bytes_are_refused(cut):
     world.restore_state(state)
 
 
+@pytest.mark.parametrize("field, value, message", [(1, 12, "version 12"), (2, 4, "btScalar of 4 bytes"), (0, 0x04030201, "byte order")])
+def test_states_of_other_versions_and_precisions_are_refused(field, value, message):
+    """In Bullet's part, behind the count of steps (16 bytes) and a mark of 8: byte order, version, size of a btScalar."""
+    world = heap()
+    state = bytearray(world.save_state())
+    at = 16 + 8 + 4 * field
+    assert state[16:23] == b"BullFEM"
+    state[at:at + 4] = value.to_bytes(4, sys.byteorder)
+    with pytest.raises(ValueError, match=message):
+        world.restore_state(bytes(state))
+
+
 @pytest.mark.parametrize("state", [None, 3, "text", bytearray(100), np.zeros(100)])
 def test_only_bytes_are_states(world, state):
     with pytest.raises(TypeError, match="save_state"):

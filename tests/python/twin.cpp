@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Zlib
 // Copyright (c) 2026 The BulletFEM authors
 //
-// Prints node positions of a scene in C++, which test_package.py compares with those in Python.
+// Prints node positions of a scene in C++, which test_package.py compares with those in Python; with an argument, the
+// time of its steps [s], for benchmarks/python/measure.py.
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
@@ -10,9 +11,10 @@
 #include <bullet_fem/btFemSoftBodySolver.h>
 #include <bullet_fem/fem/mesh/generators.h>
 
+#include <chrono>
 #include <cstdio>
 
-int main()
+int main(int argc, char**)
 {
     btSoftBodyRigidBodyCollisionConfiguration config;
     config.setPlaneConvexMultipointIterations();
@@ -37,8 +39,11 @@ int main()
     world.addSoftBody(box);
     fem.prepare(box, btScalar(1) / 60);
 
+    const auto start = std::chrono::steady_clock::now();
     for (int step = 0; step < 120; ++step) world.stepSimulation(btScalar(1) / 60, 0);
-    for (int i = 0; i < box->m_nodes.size(); ++i)
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    if (argc > 1) std::printf("%.9f\n", time.count());
+    for (int i = 0; argc == 1 && i < box->m_nodes.size(); ++i)
     {
         const btVector3& x = box->m_nodes[i].m_x;
         std::printf("%a %a %a\n", double(x[0]), double(x[1]), double(x[2]));

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Zlib
 # nightly.sh [<hours>]: all checks, in about four hours on two cores: those of each commit, all slow tests, all
-# compilers, ThreadSanitizer, clang-tidy of all sources, shared libraries, packages, the minimal runtime, random
-# programs for <hours> in each precision (default 1), and ports to Arm and Windows if BULLETFEM_BULLET_SOURCE is
-# Bullet's source tree. A failing stage does not end the run.
+# compilers, ThreadSanitizer, the Python module under AddressSanitizer, clang-tidy of all sources, shared libraries,
+# packages, the minimal runtime, random programs for <hours> in each precision (default 1), and ports to Arm and
+# Windows if BULLETFEM_BULLET_SOURCE is Bullet's source tree. A failing stage does not end the run.
 #
 # The log out/nightly/<date>.tsv has a line per stage: start (UTC), seconds, passed | failed | left out, name.
 # <date>/<name>.log has the output of the stage. Exit code 0 if no stage failed.
@@ -36,6 +36,7 @@ stage commit bash "$root/.ci/run"
 stage slow-tests "$root/tests/run.sh" -L slow
 stage compilers "$root/tools/ci/compilers.sh"
 stage threads "$root/tools/ci/threads.sh"
+stage python-sanitized "$root/tools/ci/sanitize.sh" --python
 stage clang-tidy "$root/tools/ci/tidy.sh"
 stage runtime "$root/tools/ci/runtime.sh"
 stage debian-packages "$root/tools/ci/debs.sh"

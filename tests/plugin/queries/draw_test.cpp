@@ -231,6 +231,18 @@ TEST_P(Drawing, WorldDrawsItsBodies)
     m_world.bullet().setDebugDrawer(nullptr);
 }
 
+// Directions along which pybullet divides the friction.
+void expectTangents(const btSoftBody::DeformableFaceRigidContact& at, const btFemContact& contact)
+{
+    const btScalar eps = std::sqrt(SIMD_EPSILON);
+    EXPECT_NEAR(at.t1.length(), 1, eps);
+    EXPECT_NEAR(at.t2.length(), 1, eps);
+    EXPECT_NEAR(at.t1.dot(at.t2), 0, eps);
+    EXPECT_NEAR(at.t1.cross(at.t2).cross(contact.m_normal).length(), 0, eps);
+    EXPECT_NEAR(at.t1.dot(contact.m_frictionImpulse), contact.m_frictionImpulse.length(),
+                eps * contact.m_impulse.length());
+}
+
 TEST_P(Drawing, BulletsContactArraysMatchOurContacts)
 {
     const auto& contacts = m_fem.contacts(&m_body);
@@ -251,6 +263,7 @@ TEST_P(Drawing, BulletsContactArraysMatchOurContacts)
         EXPECT_LT(point.distance(contacts[k].m_point), 1e-3);
         EXPECT_EQ(atFace.m_contactPoint, contacts[k].m_point);
         EXPECT_EQ(atFace.m_c2, 0);  // ignored by Bullet's deformable solver
+        expectTangents(atFace, contacts[k]);
     }
     EXPECT_GT(touching, 3);
     EXPECT_EQ(m_body.m_rcontacts.size(), touching);
