@@ -20,9 +20,9 @@ btFemSolverInfo stepOf(double numericalDamping)
     return info;
 }
 
-double speedAfter(double seconds, double rate, double youngModulus)
+double speedAfter(double seconds, double rate, double youngModulus, Coupling coupling = Coupling::coupled)
 {
-    FemWorld world(WorldClass::softRigid, Coupling::coupled, {0, 0, btScalar(-kGravity)}, stepOf(1));
+    FemWorld world(WorldClass::softRigid, coupling, {0, 0, btScalar(-kGravity)}, stepOf(1));
     world.addPlane();
     Car car(world, youngModulus);
     for (int k = 0; k < seconds * rate; ++k) car.step(kTorque, 1 / rate);
@@ -39,6 +39,12 @@ TEST(CarOnSoftTyres, IsAsFastAsWithSmallSteps)
         EXPECT_GT(fine, 5) << young;
         EXPECT_NEAR(coarse, fine, 0.05 * fine) << young;
     }
+}
+
+TEST(CarOnSoftTyres, DrivesAlikeWithTheSwap)
+{
+    const double coupled = speedAfter(5, 60, 3e5), swap = speedAfter(5, 60, 3e5, Coupling::swap);
+    EXPECT_NEAR(swap, coupled, 0.01 * coupled);
 }
 
 // The torque on a hub exceeds the tyre's resistance: its anchors move along the arc of its spin.
