@@ -6,6 +6,7 @@
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/contact/rigid/inner_faces.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
 namespace bullet_fem
@@ -45,6 +46,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     m_targets.list(m_scope, around);
     for (ContactTarget& target : m_targets.targets()) findNear(target);
     reserve();
+    turnFromInnerFaces(m_scope, m_targets.targets(), m_matcher.heldNormal(), m_near);
     m_filter.judge(m_scope, m_targets.targets(), m_near);
     for (const ContactTarget& target : m_targets.targets()) findWithinStep(target);
     thin(around);
