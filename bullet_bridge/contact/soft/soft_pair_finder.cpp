@@ -9,6 +9,7 @@
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/contact/friction.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/contact/soft/deep_pair_search.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -75,6 +76,8 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     roles.m_origin.m_kind = SoftPairKind::edges;
     append(roles, offset);
 
+    if (!self) partDeep({first, second, roles.m_origin}, reach, offset);
+
     SoftPairReport report;
     report.m_thinned = thin(first, second);
     report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
@@ -83,6 +86,28 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     inheritImpulses(first, second);
     tell(report, contacts, origins);
     return report;
+}
+
+// Replaces the contacts of bodies that are so far inside each other that none shows a way out.
+void SoftPairFinder::partDeep(Roles roles, const ContactReach& reach, double offset)
+{
+    const auto isOut = [&](const ContactPoint& contact) { return contact.m_gap < -reach.m_band; };
+    if (std::any_of(m_found.begin(), m_found.end(), isOut)) return;
+    const SoftSurface &a = roles.m_soft.m_fem.m_surface, &b = roles.m_other.m_fem.m_surface;
+    if (!areDeepInside(a, b)) return;
+    m_found.clear();
+    m_foundOrigins.clear();
+    const Vec3 way = wayApart(b, a);
+    m_touches.clear();
+    findAlong(a, b, way, m_touches);
+    roles.m_origin.m_kind = SoftPairKind::nodeOfFirst;
+    append(roles, offset);
+    m_touches.clear();
+    findAlong(b, a, -way, m_touches);
+    append({roles.m_other,
+            roles.m_soft,
+            {roles.m_origin.m_firstId, roles.m_origin.m_secondId, SoftPairKind::nodeOfSecond, 0, 0}},
+           offset);
 }
 
 SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,

@@ -64,6 +64,7 @@ private:
     void listHeldEdges();
     static ContactPoint commonOf(const FemSoftBody& first, const FemSoftBody& second);
     void append(const Roles& roles, double offset);
+    void partDeep(Roles roles, const ContactReach& reach, double offset);
     static Vec3 patchOf(const Roles& roles, const SurfaceContact& touch, const ContactPoint& contact);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
     bool thin(const SoftPairSide& first, const SoftPairSide& second);
