@@ -100,7 +100,7 @@ void FemSoftBody::sizeScratch()
     m_memory.m_impacts.clear();
     m_memory.m_impacts.reserve(kUsualImpacts);
     m_memory.m_place = NotedPlace(m_surface.topology().vertices());
-    m_height = m_skin ? std::vector<double>() : heightsOf(m_body.m_model->mesh());
+    m_ofMesh.m_height = m_skin ? std::vector<double>() : heightsOf(m_body.m_model->mesh());
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
@@ -116,13 +116,13 @@ void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared
 
 void FemSoftBody::serveInnerNodes()
 {
-    if (m_compliance == m_servesInner) return;
+    if (m_compliance == m_ofMesh.m_servesInner) return;
     const TetMesh& mesh = m_body.m_model->mesh();
     std::vector<int> nodes;
     for (int i = 0; i < mesh.nodeCount(); ++i)
         if (!mesh.isLoose(i)) nodes.push_back(i);
     m_compliance = makeComplianceCache(m_body.m_model, std::move(nodes));
-    m_servesInner = m_compliance;
+    m_ofMesh.m_servesInner = m_compliance;
 }
 
 void FemSoftBody::updateSkin()

@@ -190,7 +190,7 @@ struct FemSoftBody
     /// Infinite with a skin.
     double heightOn(int triangle) const
     {
-        return m_height.empty() ? std::numeric_limits<double>::infinity() : m_height[triangle];
+        return m_ofMesh.m_height.empty() ? std::numeric_limits<double>::infinity() : m_ofMesh.m_height[triangle];
     }
 
     /// Gravity that acts on the body [m/s2]; not checked.
@@ -217,11 +217,16 @@ private:
         bool m_isHeld = false, m_isUpdated = false;  // see holdForSearches
     };
 
+    struct MeshMemory
+    {
+        std::shared_ptr<const ComplianceCache> m_servesInner;  // of all nodes, see serveInnerNodes; may be out of date
+        std::vector<double> m_height;                          // see heightOn
+    };
+
     void sizeScratch();
 
     SkinMotion m_skinMotion;
-    std::shared_ptr<const ComplianceCache> m_servesInner;  // of all nodes, see serveInnerNodes; may be out of date
-    std::vector<double> m_height;                          // see heightOn
+    MeshMemory m_ofMesh;
 };
 
 /// True if a rest matrix has changed since noteRestMatrices(), as by initializeDmInverse or by scaling the body. Never
