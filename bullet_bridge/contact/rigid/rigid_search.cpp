@@ -20,8 +20,6 @@ namespace
 {
 
 constexpr double kOneFaceCosine = 0.9999;  // smallest cosine of the normals of contacts with one flat face
-constexpr int kFewest = 3;                 // smallest number of contacts on the face
-constexpr double kCarriedShare = 0.8;      // smallest share of the normal impulses that the face carries
 
 // Null if the body's broad phase is not known.
 btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
@@ -65,10 +63,7 @@ bool isOwnSheet(const btCollisionShape& shape)
 
 }  // namespace
 
-RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts)
-{
-    m_carried.reserve(kParts);
-}
+RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts), m_carrying(kOneFaceCosine) {}
 
 void RigidSearch::beginStep()
 {
@@ -138,57 +133,28 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     std::sort(m_overlappingPairs.begin(), m_overlappingPairs.end());
 }
 
-// Sums up the impulses by which soft bodies carried each object in the last step.
+// Finds the faces by which soft bodies carried objects in the last step.
 void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
 {
-    const auto before = [](const Carried& a, const Carried& b) { return a.m_objectId < b.m_objectId; };
-    const auto forEachPush = [&](const auto& use)
-    {
-        for (const FemSoftBody* fem : bodies)
-            for (std::size_t k = 0; k < fem->m_memory.m_contacts.size(); ++k)
-            {
-                const ContactPoint& contact = fem->m_memory.m_contacts[k];
-                const double size = dot(contact.m_impulse, contact.m_normal);
-                const Carried key = {fem->m_memory.m_origins[k].m_objectId, 0, 0, 0, 0, Vec3(), Vec3()};
-                if (size > 0)
-                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact);
-            }
-    };
-    m_carried.clear();
-    forEachPush(
-        [&](auto at, const Carried& key, double size, const ContactPoint& contact)
+    m_carrying.clear();
+    for (const FemSoftBody* fem : bodies)
+        for (std::size_t k = 0; k < fem->m_memory.m_contacts.size(); ++k)
         {
-            if (at == m_carried.end() || at->m_objectId != key.m_objectId) at = m_carried.insert(at, key);
-            at->m_sum += size;
-            if (size <= at->m_largest) return;
-            at->m_largest = size;
-            at->m_normal = contact.m_normal;
-        });
-    forEachPush(
-        [&](auto at, const Carried&, double size, const ContactPoint& contact)
-        {
-            if (dot(contact.m_normal, at->m_normal) < kOneFaceCosine) return;
-            ++at->m_count;
-            at->m_onFace += size;
-            at->m_foot += size * (contact.m_point - contact.m_gap * contact.m_normal);
-        });
+            const ContactPoint& contact = fem->m_memory.m_contacts[k];
+            const double size = dot(contact.m_impulse, contact.m_normal);
+            if (size > 0)
+                m_carrying.add({fem->m_memory.m_origins[k].m_objectId, size, contact.m_normal,
+                                contact.m_point - contact.m_gap * contact.m_normal});
+        }
+    m_carrying.find();
 }
 
 // The plane by which a moving object lay on soft bodies in the last step, moved on to the start of this one.
 CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
                                            double step) const
 {
-    CarryingPlane plane;
-    if (norm(rigidProxy.m_linearVelocity) == 0) return plane;
-    const int id = broadphaseId(object);
-    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
-                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
-    if (at == m_carried.end() || at->m_objectId != id) return plane;
-    if (at->m_count < kFewest || at->m_onFace < kCarriedShare * at->m_sum) return plane;
-    plane.m_exists = true;
-    plane.m_normal = at->m_normal;
-    plane.m_distance = dot(plane.m_normal, at->m_foot * (1 / at->m_onFace) + step * rigidProxy.m_linearVelocity);
-    return plane;
+    if (norm(rigidProxy.m_linearVelocity) == 0) return {};
+    return m_carrying.planeOf(broadphaseId(object), step * rigidProxy.m_linearVelocity);
 }
 
 void RigidSearch::removeGone(FemSoftBody& fem, int body) const
