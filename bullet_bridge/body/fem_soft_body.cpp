@@ -28,6 +28,34 @@ btScalar& seenMark(btAlignedObjectArray<btSoftBody::Tetra>& tetras)
     return tetras[0].m_Dm_inverse[0][3];
 }
 
+Triangle sortedCorners(Triangle t)
+{
+    std::sort(t.begin(), t.end());
+    return t;
+}
+
+// Heights of the elements above the triangles of the boundary [m].
+std::vector<double> heightsOf(const TetMesh& mesh)
+{
+    const std::vector<Vec3>& X = mesh.restPositions();
+    const std::vector<unsigned char> sides = mesh.boundarySides();
+    std::vector<std::pair<Triangle, double>> known;
+    for (int e = 0; e < mesh.tetCount(); ++e)
+        for (int a = 0; a < 4; ++a)
+        {
+            if (!(sides[e] >> a & 1)) continue;
+            const Tet& tet = mesh.tets()[e];
+            const Triangle t = {tet[(a + 1) % 4], tet[(a + 2) % 4], tet[(a + 3) % 4]};
+            const double area = norm(cross(X[t[1]] - X[t[0]], X[t[2]] - X[t[0]])) / 2;
+            known.emplace_back(sortedCorners(t), 3 * mesh.tetVolume(e) / area);
+        }
+    std::sort(known.begin(), known.end());
+    std::vector<double> heights;
+    for (const Triangle& t : mesh.surface())
+        heights.push_back(std::lower_bound(known.begin(), known.end(), std::make_pair(sortedCorners(t), 0.0))->second);
+    return heights;
+}
+
 }  // namespace
 
 FemSoftBody::FemSoftBody(btSoftBody& softBody, std::shared_ptr<const BodyModel> model,
@@ -72,6 +100,7 @@ void FemSoftBody::sizeScratch()
     m_memory.m_impacts.clear();
     m_memory.m_impacts.reserve(kUsualImpacts);
     m_memory.m_place = NotedPlace(m_surface.topology().vertices());
+    m_ofMesh.m_height = m_skin ? std::vector<double>() : heightsOf(m_body.m_model->mesh());
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
@@ -83,6 +112,17 @@ void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared
     m_skinMotion.m_velocity.resize(m_skinMotion.m_position.size());
     m_compliance = std::move(compliance);
     sizeScratch();
+}
+
+void FemSoftBody::serveInnerNodes()
+{
+    if (m_compliance == m_ofMesh.m_servesInner) return;
+    const TetMesh& mesh = m_body.m_model->mesh();
+    std::vector<int> nodes;
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+        if (!mesh.isLoose(i)) nodes.push_back(i);
+    m_compliance = makeComplianceCache(m_body.m_model, std::move(nodes));
+    m_ofMesh.m_servesInner = m_compliance;
 }
 
 void FemSoftBody::updateSkin()

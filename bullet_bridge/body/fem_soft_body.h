@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -153,6 +154,7 @@ struct SearchScratch
     std::vector<double> m_nodeGap;   ///< one per vertex
     std::vector<Vec3> m_nodeNormal;  ///< one per vertex
     std::vector<double> m_edgeGap;   ///< one per surface edge: gap at its midpoint
+    bool m_isInsideOut = false;      ///< some element is, or was in one of the last steps
 };
 
 /// A btSoftBody and its finite-element body.
@@ -164,6 +166,10 @@ struct FemSoftBody
     /// Sets a skin as collision surface, or the mesh's boundary (null). `compliance` is that of the nodes on which the
     /// surface depends. Discards contacts and impacts.
     void setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance);
+
+    /// Makes inner nodes ready for contact, which the compliance of a surface does not serve. Allocates at the first
+    /// call with a compliance.
+    void serveInnerNodes();
 
     /// Moves the skin to the present nodes. Call in every step after solveFreeMotion and before contact searches.
     void updateSkin();
@@ -178,6 +184,13 @@ struct FemSoftBody
     SurfacePoint pointOn(int body, const Triangle& vertices, const std::array<double, 3>& weights) const
     {
         return m_skin ? m_skin->pointOf(body, vertices, weights) : pointOf(body, vertices, weights);
+    }
+
+    /// Height of the element above a triangle of the mesh's boundary at rest [m]: a point as deep is inside the body.
+    /// Infinite with a skin.
+    double heightOn(int triangle) const
+    {
+        return m_ofMesh.m_height.empty() ? std::numeric_limits<double>::infinity() : m_ofMesh.m_height[triangle];
     }
 
     /// Gravity that acts on the body [m/s2]; not checked.
@@ -204,9 +217,16 @@ private:
         bool m_isHeld = false, m_isUpdated = false;  // see holdForSearches
     };
 
+    struct MeshMemory
+    {
+        std::shared_ptr<const ComplianceCache> m_servesInner;  // of all nodes, see serveInnerNodes; may be out of date
+        std::vector<double> m_height;                          // see heightOn
+    };
+
     void sizeScratch();
 
     SkinMotion m_skinMotion;
+    MeshMemory m_ofMesh;
 };
 
 /// True if a rest matrix has changed since noteRestMatrices(), as by initializeDmInverse or by scaling the body. Never

@@ -20,12 +20,15 @@ inline bool isPushing(const ContactPoint& contact)
 /// points of it represent hundreds, which would only slow down the solver. A cell is half a mean tetrahedron edge wide
 /// in the rest shape. A cell's contacts with one object are reduced to those that pushed in the last step (an active
 /// set), and the deepest one at the end of this step if it is deeper than those by the slop or differs in its normal.
-/// Scratch grows, never shrinks.
+/// limit() keeps one of each direction in a cell, for any surface with too many contacts. Scratch grows, never shrinks.
 class ContactReduction
 {
 public:
     /// Width of the cells for a body [m]; 0 if its contacts are not thinned.
     static double cellOf(const FemSoftBody& fem);
+
+    /// Width of the smallest cells of limit() for a body [m].
+    static double smallestCellOf(const FemSoftBody& fem);
 
     /// Forgets all contacts. `cell`: width of a cell [m], > 0.
     void clear(double cell);
@@ -47,7 +50,42 @@ public:
     template <class Origin>
     void thin(std::vector<ContactPoint>& contacts, std::vector<Origin>& origins)
     {
-        choose();
+        choose(kMaxAlike);
+        keepChosen(contacts, origins);
+    }
+
+    /// As thin(), but keeps about `most` (> 0) contacts, where there are more: objects with at most their share of them
+    /// keep all, the others one of each direction in a cell, one that pushed in the last step if there is. Cells become
+    /// wider until that suffices, or one encloses the body. False if there are no more than `most`.
+    template <class Origin>
+    bool limit(int most, std::vector<ContactPoint>& contacts, std::vector<Origin>& origins)
+    {
+        if (static_cast<int>(contacts.size()) <= most) return false;
+        chooseAbout(most);
+        keepChosen(contacts, origins);
+        return true;
+    }
+
+private:
+    static constexpr int kMaxAlike = 8;  // contacts kept in a cell that pushed in the last step and have similar
+                                         // normals
+
+    struct Candidate
+    {
+        int m_objectId;
+        Vec3 m_restPoint;
+        std::array<int, 3> m_cell;
+        bool m_isNew;  // did not push in the last step
+        double m_gap, m_slop;
+        int m_index;
+        Vec3 m_normal;
+
+        bool isInCellOf(const Candidate& b) const { return m_objectId == b.m_objectId && m_cell == b.m_cell; }
+    };
+
+    template <class Origin>
+    void keepChosen(std::vector<ContactPoint>& contacts, std::vector<Origin>& origins) const
+    {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < contacts.size(); ++k)
         {
@@ -59,21 +97,10 @@ public:
         origins.resize(kept);
     }
 
-private:
-    struct Candidate
-    {
-        int m_objectId;
-        std::array<int, 3> m_cell;
-        bool m_isNew;  // did not push in the last step
-        double m_gap, m_slop;
-        int m_index;
-        Vec3 m_normal;
-
-        bool isInCellOf(const Candidate& b) const { return m_objectId == b.m_objectId && m_cell == b.m_cell; }
-    };
-
-    void choose();
-    bool isNeeded(std::size_t candidate, std::size_t firstOfCell) const;
+    void choose(int maxAlike);
+    void chooseAbout(int most);
+    void keepFewOf(int share);
+    bool isNeeded(std::size_t candidate, std::size_t firstOfCell, int maxAlike) const;
 
     double m_cell = 1;
     std::vector<Candidate> m_candidates;

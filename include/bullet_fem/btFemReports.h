@@ -51,10 +51,10 @@ enum btFemFlags
     /// distance field that was not loaded, a mesh without its tree, a hull without points, a class that is neither a
     /// btConvexShape nor a btConcaveShape, or a user class whose processAllTriangles returns no triangle.
     BT_FEM_UNKNOWN_SHAPE = 1 << 11,
-    /// There were more contact points than btFemSolverInfo::m_maxContacts, and the deepest were kept.
+    /// There were more contact points than btFemSolverInfo::m_maxContacts; they were thinned by place.
     BT_FEM_CONTACT_LIMIT = 1 << 12,
     /// The body has a new factor from this step on: it is in contact or held while its step or masses differed from the
-    /// factor's by a factor of 1.5, or btFemSolverInfo::m_refactoring requested it.
+    /// factor's by a factor of 1.5 or its pins did, or btFemSolverInfo::m_refactoring requested it.
     BT_FEM_REFACTORED = 1 << 13,
     /// The other object of an anchor or joint left the world, and the anchor or joint was removed.
     BT_FEM_LOST_ANCHOR = 1 << 14,

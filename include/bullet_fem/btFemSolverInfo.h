@@ -80,7 +80,7 @@ struct BULLETFEM_API btFemSolverInfo
     /// element and thread. Does not change the bits of the result; turn it off to save memory or to compare times.
     bool m_batchBodies = true;
     /// When stale factors are replaced. A body in contact or held always gets a new factor if its step or masses differ
-    /// from the factor's by a factor of 1.5.
+    /// from the factor's by a factor of 1.5, or after a few steps with other pins or targets.
     btFemRefactoring m_refactoring = btFemRefactoring::onRequest;
     /// Whether Bullet's dispatcher has a btPersistentManifold for every pair of a FEM body and another object in
     /// contact: the four deepest points of the last step with their impulses. The rigid object is the first, the soft

@@ -23,6 +23,9 @@ public:
     /// Adds a step's iterations with the present factor; `mismatch` as in iterationsLostTo, 1 for a fresh factor.
     void note(int iterations, double mismatch, double tolerance);
 
+    /// Adds the corrective solves of contact in a step with the factor of other pins.
+    void noteContact(int iterations) { m_lost += iterations; }
+
     /// True if the factor was stale in the last step and has cost `price` iterations or more.
     bool refactorPays(double price) const { return m_stale && m_lost >= price * m_dearness; }
 

@@ -42,7 +42,7 @@ constexpr btFemFlagText kFlagTexts[] = {
      "field that was not loaded, a mesh without its tree, a hull without points or a class of another kind. Replace "
      "the shape."},
     {BT_FEM_CONTACT_LIMIT, "BT_FEM_CONTACT_LIMIT", "too many contacts",
-     "There were more contact points than allowed, and the deepest were kept. Take a coarser mesh, or raise "
+     "There were more contact points than allowed; they were thinned by place. Take a coarser mesh, or raise "
      "btFemSolverInfo::m_maxContacts."},
     {BT_FEM_REFACTORED, "BT_FEM_REFACTORED", "new factor",
      "The body got a new factor, since its step or masses had changed or the solver was told to make one. The step "

@@ -68,6 +68,8 @@ void btFemContactGroup::collect(const Scope& scope)
     findSoft();
     findCloth();
     for (FemSoftBody* fem : m_bodies) fem->holdForSearches(false);
+    for (std::size_t b = 0; b < m_bodies.size(); ++b)
+        m_problem.m_bodies[b].m_compliance = m_bodies[b]->m_compliance.get();  // inner nodes may have been exposed
     collectContacts();
     m_torsionalPatches.append(m_bodies, m_problem);
     m_rigid.links().connect(m_rigid.rigidProxies(), m_problem.m_responses);

@@ -171,6 +171,7 @@ void btFemFreeMotion::prepare(btFemBodyRecord& record) const
 {
     readBody(record);  // again, as callbacks may have written since the prediction
     FemSoftBody& fem = record.fem();
+    fem.m_search.m_isInsideOut = record.m_work.m_insideOut.isAny();
     if (!readLoads(fem, record.m_work.m_lastStep)) record.m_reports.m_step.m_flags |= BT_FEM_RESTORED;
     StepLoads& loads = fem.m_body.m_loads;
     const bool hadContacts = record.m_reports.m_contacts.size() > 0, isJoined = hasJoints(record);

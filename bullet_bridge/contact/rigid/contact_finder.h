@@ -15,7 +15,7 @@ namespace bullet_fem
 struct ContactSearchReport
 {
     bool m_unknownShape = false;  ///< a shape without contact support was left out
-    bool m_limited = false;       ///< more contacts than permitted were found; those of smallest gap were kept
+    bool m_limited = false;       ///< more contacts than permitted were found; they were thinned by place
 };
 
 /// Records that Bullet's broad phase found the two overlapping, once. May be called by several threads at once.
@@ -55,7 +55,8 @@ private:
     void findNear(ContactTarget& target);
     void findWithinStep(const ContactTarget& target);
     void reserve();
-    void thin(const RigidSurroundings& around);
+    bool limit(const RigidSurroundings& around);
+    void listForReduction(const RigidSurroundings& around, double cell);
 
     SearchScope m_scope;
     ContactTargets m_targets;

@@ -70,6 +70,41 @@ void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
     m_band = kContactBand * m_edge;
     m_advantage = kAdvantage * m_edge;
     m_size = fem.m_surface.size();
+    m_exposed.clear();
+}
+
+void SearchScope::findExposed()
+{
+    m_exposed.clear();
+    FemSoftBody& body = fem();
+    if (body.m_skin) return;
+    const TetMesh& mesh = body.m_body.m_model->mesh();
+    const std::vector<Vec3>& x = body.surfacePosition();
+    const bool isAny = static_cast<int>(surfaceVertices().size()) < mesh.nodeCount();
+    if (!isAny) return;
+    m_isInner.assign(x.size(), 0);
+    for (std::size_t e = 0; e < mesh.tets().size() && body.m_search.m_isInsideOut; ++e)
+    {
+        const Tet& t = mesh.tets()[e];
+        if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
+            for (int node : t) m_isInner[node] = 1;
+    }
+    for (int i : surfaceVertices()) m_isInner[i] = 0;
+    const Vec3 low = m_culling.low(), high = m_culling.high();
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+    {
+        const bool isInner = body.m_surface.topology().trianglesAt(i).size() == 0 && !mesh.isLoose(i);
+        bool isOutside = m_isInner[i] != 0;
+        for (int c = 0; c < 3; ++c) isOutside = isOutside || x[i][c] < low[c] || x[i][c] > high[c];
+        if (isInner && isOutside) m_exposed.push_back(i);
+    }
+    if (m_exposed.empty()) return;
+    body.serveInnerNodes();
+    for (int i : m_exposed) m_culling.include(x[i]);
+    m_middle = Vec3();
+    for (int i : surfaceVertices()) m_middle += (1.0 / static_cast<double>(surfaceVertices().size())) * x[i];
+    m_exposed.insert(m_exposed.end(), surfaceVertices().begin(), surfaceVertices().end());
+    std::sort(m_exposed.begin(), m_exposed.end());
 }
 
 // Bullet has moved kinematic objects already, while their leaves are at the start of the step: moves the proxy back.
@@ -100,6 +135,7 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
     if (around.m_count == 0) return;
     fem.updateSkin();
     scope.m_culling.begin(fem.m_surface, fem.surfacePosition());
+    scope.findExposed();
     scope.m_fastest = fastestNode(fem.m_body, Vec3());
     const double softReach = scope.m_band + fem.m_settings.m_contactOffset +
                              around.m_step * (fem.m_skin ? fastestVertex(fem, Vec3()) : scope.m_fastest);

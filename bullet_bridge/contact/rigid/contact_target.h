@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/contact/carrying_planes.h"
 #include "bullet_bridge/contact/rigid/search_scope.h"
 #include "bullet_bridge/geometry/shapes/shape_distance.h"
 #include "bullet_bridge/geometry/shapes/swept_distance.h"
@@ -12,14 +13,6 @@
 
 namespace bullet_fem
 {
-
-/// A flat face of a moving object that slides on soft bodies.
-struct CarryingPlane
-{
-    bool m_exists = false;
-    Vec3 m_normal;          ///< unit, out of the object
-    double m_distance = 0;  ///< of the plane from the origin, along the normal, as the step begins [m]
-};
 
 /// An object near a body, as input of the contact search.
 struct ContactObject

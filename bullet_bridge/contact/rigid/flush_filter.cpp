@@ -13,8 +13,6 @@ namespace
 constexpr double kMinStep = 0.25;  // smallest height of a step above a carrier, over the lift; lower ones are flush
 constexpr double kApart = 0.05;    // gap of separated surfaces, over the lift; resting ones have less
 constexpr double kFlushReach = 4;  // radius of the search for a wall near a lifted point, over the lift
-constexpr double kSunk = 0.2;      // depth to which objects sink into soft bodies that carry them, over the mean edge
-constexpr double kCarrierCosine = 0.7;     // smallest cosine of normals of surfaces that carry together
 constexpr double kParallelCosine = 0.999;  // smallest cosine of normals of one surface
 
 // Number of the surface of contact k: a convex shape, or one triangle of a sheet.

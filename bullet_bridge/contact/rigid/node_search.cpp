@@ -53,9 +53,11 @@ double marginOf(const btCollisionShape& shape)
 
 // Calls use(corner, distance) for the corners of a polyhedral shape that lie over a triangle and within reach.
 template <class Use>
-void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, const Triangle& t, const Use& use)
+void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, int triangle, const Use& use)
 {
     const FemSoftBody& fem = scope.fem();
+    const Triangle& t = fem.m_surface.topology().triangles()[triangle];
+    const double depth = scope.depthOn(triangle);
     const btCollisionShape& shape = *target.m_shape->m_shape;
     if (!shape.isPolyhedral()) return;
     const auto& polyhedron = static_cast<const btPolyhedralConvexShape&>(shape);
@@ -70,16 +72,16 @@ void forEachCornerOver(const SearchScope& scope, const ContactTarget& target, co
         polyhedron.getVertex(k, vertex);
         const Vec3 corner = target.m_shape->m_pose.toWorld(vec3(vertex));
         SurfaceDistance d = {dot(normal, corner - corners[0]) - distance, -normal, {}};
-        if (!(d.m_gap <= target.m_reach && d.m_gap > -kFeatureDepth * scope.m_edge)) continue;
+        if (!(d.m_gap <= target.m_reach && d.m_gap > -depth)) continue;
         if (!projectOnPlane(corners, corner, d.m_barycentric)) return;
         if (std::min({d.m_barycentric[0], d.m_barycentric[1], d.m_barycentric[2]}) >= 0) use(k, d);
     }
 }
 
-bool isUnderCorner(const SearchScope& scope, const ContactTarget& target, const Triangle& t)
+bool isUnderCorner(const SearchScope& scope, const ContactTarget& target, int triangle)
 {
     bool isUnder = false;
-    forEachCornerOver(scope, target, t, [&](int, const SurfaceDistance&) { isUnder = true; });
+    forEachCornerOver(scope, target, triangle, [&](int, const SurfaceDistance&) { isUnder = true; });
     return isUnder;
 }
 
@@ -135,7 +137,7 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
     FemSoftBody& fem = scope.fem();
     const double reach = target.m_reach;
     const double farthest = reach + scope.m_culling.longestEdge();  // gaps up to this are noted for culling
-    for (int i : fem.m_surface.topology().vertices())
+    for (int i : scope.vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         fem.m_search.m_nodeGap[i] = kNotNear;
@@ -193,7 +195,7 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target
         for (int a = 0; a < 3; ++a)
             nearest = std::min({nearest, fem.m_search.m_nodeGap[t[a]],
                                 fem.m_search.m_edgeGap[fem.m_surface.topology().edgesOf(k)[a]]});
-        if (isSmall && isUnderCorner(scope, target, t))
+        if (isSmall && isUnderCorner(scope, target, k))
             m_underCorners.push_back(k);
         else
             considerNearest(scope, target, firstFeature + 2 * k + 1, t, nearest, list);
@@ -210,7 +212,7 @@ void NodeSearch::findOnCorners(const SearchScope& scope, const ContactTarget& ta
     for (int triangle : m_underCorners)
     {
         const Triangle& t = fem.m_surface.topology().triangles()[triangle];
-        forEachCornerOver(scope, target, t,
+        forEachCornerOver(scope, target, triangle,
                           [&](int corner, const SurfaceDistance& d)
                           { list.consider(scope, target, firstFeature + kMaxCorners * triangle + corner, t, d); });
     }

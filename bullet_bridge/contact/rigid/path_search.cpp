@@ -126,7 +126,7 @@ void findTouchingNodes(SearchScope& scope, const ContactTarget& target, ContactL
     const FemSoftBody& fem = scope.fem();
     const double reach = scope.m_band + fem.m_settings.m_contactOffset;
     if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return;
-    for (int i : fem.m_surface.topology().vertices())
+    for (int i : scope.vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         SurfaceDistance d;
@@ -177,7 +177,7 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
     const Paths search = {scope, target, filter.carried(), swept, fastest + spin, 0};
     scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_settings.m_contactOffset + fall});
     std::size_t next = target.m_first;  // in near
-    for (int i : fem.m_surface.topology().vertices())
+    for (int i : scope.vertices())
     {
         const SweptFeature path = pathOf(fem, filter.carried(), {i, i, i}, {}, target.m_step);
         scope.m_culling.noteVertex(i, path.m_position[0], path.m_position[0] + target.m_step * path.m_velocity[0]);

@@ -21,8 +21,6 @@ namespace
 {
 
 constexpr double kOneFaceCosine = 0.9999;  // smallest cosine of the normals of contacts with one flat face
-constexpr int kFewest = 3;                 // smallest number of contacts on the face
-constexpr double kCarriedShare = 0.8;      // smallest share of the normal impulses that the face carries
 
 // Null if the body's broad phase is not known.
 btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
@@ -73,10 +71,7 @@ bool isOwnSheet(const btCollisionShape& shape)
 
 }  // namespace
 
-RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts)
-{
-    m_carried.reserve(kParts);
-}
+RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts), m_carrying(kOneFaceCosine) {}
 
 void RigidSearch::beginStep()
 {
@@ -146,65 +141,33 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
     std::sort(m_overlappingPairs.begin(), m_overlappingPairs.end());
 }
 
-// Sums up the impulses by which soft bodies carried each object in the last step.
+// Finds the faces by which soft bodies carried objects in the last step.
 void RigidSearch::listCarrying(const std::vector<FemSoftBody*>& bodies)
 {
-    const auto before = [](const Carried& a, const Carried& b) { return a.m_objectId < b.m_objectId; };
-    const auto forEachPush = [&](const auto& use)
-    {
-        for (const FemSoftBody* fem : bodies)
-            for (std::size_t k = 0; k < fem->m_memory.m_contacts.size(); ++k)
-            {
-                const ContactPoint& contact = fem->m_memory.m_contacts[k];
-                const double size = dot(contact.m_impulse, contact.m_normal);
-                Carried key = {};
-                key.m_objectId = fem->m_memory.m_origins[k].m_objectId;
-                if (size > 0)
-                    use(std::lower_bound(m_carried.begin(), m_carried.end(), key, before), key, size, contact, *fem);
-            }
-    };
-    m_carried.clear();
-    forEachPush(
-        [&](auto at, const Carried& key, double size, const ContactPoint& contact, const FemSoftBody& fem)
+    m_carrying.clear();
+    for (const FemSoftBody* fem : bodies)
+        for (std::size_t k = 0; k < fem->m_memory.m_contacts.size(); ++k)
         {
-            if (at == m_carried.end() || at->m_objectId != key.m_objectId) at = m_carried.insert(at, key);
-            at->m_sum += size;
-            at->m_push += size * contact.m_normal;
-            at->m_momentum += size * contact.m_soft.of(fem.m_body.m_state.m_v);
-            if (size <= at->m_largest) return;
-            at->m_largest = size;
-            at->m_normal = contact.m_normal;
-        });
-    forEachPush(
-        [&](auto at, const Carried&, double size, const ContactPoint& contact, const FemSoftBody&)
-        {
-            if (dot(contact.m_normal, at->m_normal) < kOneFaceCosine) return;
-            ++at->m_count;
-            at->m_onFace += size;
-            at->m_foot += size * (contact.m_point - contact.m_gap * contact.m_normal);
-        });
-}
-
-const RigidSearch::Carried* RigidSearch::carriedBy(const btCollisionObject& object) const
-{
-    const int id = broadphaseId(object);
-    const auto at = std::lower_bound(m_carried.begin(), m_carried.end(), id,
-                                     [](const Carried& carried, int other) { return carried.m_objectId < other; });
-    return at == m_carried.end() || at->m_objectId != id ? nullptr : &*at;
+            const ContactPoint& contact = fem->m_memory.m_contacts[k];
+            const double size = dot(contact.m_impulse, contact.m_normal);
+            if (size > 0)
+                m_carrying.add({fem->m_memory.m_origins[k].m_objectId, size, contact.m_normal,
+                                contact.m_point - contact.m_gap * contact.m_normal});
+        }
+    m_carrying.find();
 }
 
 // The way that a round object makes in a step along the soft surfaces that carried it in the last one.
 Vec3 RigidSearch::advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy,
                             double step) const
 {
-    const Carried* carried = object.isStaticOrKinematicObject() ? nullptr : carriedBy(object);
-    const double push = carried ? norm(carried->m_push) : 0;
-    if (!(push > 0) || push < kCarriedShare * carried->m_sum) return {};
-    const Vec3 normal = (1 / push) * carried->m_push;
-    const double curvature = rollingCurvature(leaf, normal, proxy.m_angularVelocity);
+    const CarryingSide side =
+        object.isStaticOrKinematicObject() ? CarryingSide() : m_carrying.sideOf(broadphaseId(object));
+    if (!side.m_exists) return {};
+    const double curvature = rollingCurvature(leaf, side.m_normal, proxy.m_angularVelocity);
     if (!(curvature > 0)) return {};
-    const Vec3 way = step * (proxy.m_linearVelocity - (1 / carried->m_sum) * carried->m_momentum);
-    const Vec3 along = way - dot(way, normal) * normal;
+    const Vec3 way = step * (proxy.m_linearVelocity - side.m_velocity);
+    const Vec3 along = way - dot(way, side.m_normal) * side.m_normal;
     return curvature * norm(along) < 1 ? along : Vec3();
 }
 
@@ -212,15 +175,8 @@ Vec3 RigidSearch::advanceOf(const btCollisionObject& object, const ShapeLeaf& le
 CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy,
                                            double step) const
 {
-    CarryingPlane plane;
-    if (norm(rigidProxy.m_linearVelocity) == 0) return plane;
-    const Carried* at = carriedBy(object);
-    if (!at) return plane;
-    if (at->m_count < kFewest || at->m_onFace < kCarriedShare * at->m_sum) return plane;
-    plane.m_exists = true;
-    plane.m_normal = at->m_normal;
-    plane.m_distance = dot(plane.m_normal, at->m_foot * (1 / at->m_onFace) + step * rigidProxy.m_linearVelocity);
-    return plane;
+    if (norm(rigidProxy.m_linearVelocity) == 0) return {};
+    return m_carrying.planeOf(broadphaseId(object), step * rigidProxy.m_linearVelocity);
 }
 
 void RigidSearch::removeGone(FemSoftBody& fem, int body) const

@@ -58,21 +58,6 @@ private:
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
 
-    /// Impulses by which the soft bodies pushed an object in the last step.
-    struct Carried
-    {
-        int m_objectId;
-        double m_sum;      // sum of the normal impulses [N s]
-        double m_largest;  // largest normal impulse [N s], whose normal is m_normal
-        int m_count;       // contacts of about that normal
-        double m_onFace;   // sum of their normal impulses [N s]
-        Vec3 m_normal;     // unit, from the object to the soft bodies
-        Vec3 m_foot;       // sum of their points on the object times their normal impulses [N s m]
-        Vec3 m_push;       // sum of all impulses along their normals [N s]
-        Vec3 m_momentum;   // sum of the soft bodies' present velocities there times the normal impulses [N m]
-    };
-
-    const Carried* carriedBy(const btCollisionObject& object) const;
     CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     Vec3 advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy, double step) const;
     bool givesTriangles(const ShapeLeaf& leaf);
@@ -85,7 +70,7 @@ private:
     btAlignedObjectArray<ShapeLeaf> m_leaves;
     SortedIndex<const btCollisionShape*> m_giving, m_gaveLast;  // a program's own shapes that reported triangles in
                                                                 // this step and in the last
-    std::vector<Carried> m_carried;                             // by object, ascending
+    CarryingPlanes m_carrying;                                  // of the objects, by those of the last step
     std::vector<ContactSearchReport> m_reports;
     SortedIndex<const void*> m_byAddress;                         // bodies
     std::vector<const btBroadphaseInterface*> m_broadphases;      // the bodies' broad phases, each once

@@ -82,7 +82,7 @@ bool SheetSearch::collect(SearchScope& scope, const ContactTarget& target)
     return !m_soup.triangles().empty();
 }
 
-// Computes the normals of the surface's nodes and edges, once a step.
+// Computes the normals of the surface's nodes, weighted by the triangles' angles, and of its edges, once a step.
 void SheetSearch::measureSurface(const FemSoftBody& fem)
 {
     if (m_measured) return;
@@ -93,10 +93,12 @@ void SheetSearch::measureSurface(const FemSoftBody& fem)
     m_edgeOutward.assign(fem.m_surface.topology().edgeCount(), Vec3());
     for (std::size_t k = 0; k < triangles.size(); ++k)
     {
-        const Vec3 n = normalOf(x, triangles[k]);
+        const Triangle& t = triangles[k];
+        const Vec3 n = normalOf(x, t);
         for (int a = 0; a < 3; ++a)
         {
-            m_outward[triangles[k][a]] += n;
+            const Vec3 &corner = x[t[a]], next = x[t[(a + 1) % 3]] - corner, last = x[t[(a + 2) % 3]] - corner;
+            m_outward[t[a]] += angleBetween(next, last) * n;
             m_edgeOutward[fem.m_surface.topology().edgesOf(k)[a]] += n;
         }
     }
@@ -105,6 +107,7 @@ void SheetSearch::measureSurface(const FemSoftBody& fem)
 
 // A point on the right side of the sheets: the remembered one if the leaf was near in the last step. A node that has
 // moved farther since than a step permits was placed anew by the program, and has no history.
+// An exposed inner node was on the side of the surface.
 Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& position) const
 {
     const ContactTarget& target = sheets.m_target;
@@ -116,6 +119,7 @@ Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& posit
         const Vec3 way = position - target.m_shape->m_pose.toWorld(side->m_position);
         if (norm(way) < 4 * target.m_reach + sheets.m_scope.m_edge) return target.m_shape->m_pose.toWorld(side->m_safe);
     }
+    if (sheets.m_scope.fem().m_surface.topology().trianglesAt(node).size() == 0) return sheets.m_scope.m_middle;
     return position - sheets.m_scope.m_band * m_outward[node];
 }
 
@@ -133,7 +137,7 @@ void SheetSearch::findOnNodes(const Sheets& sheets, const std::vector<Vec3>& hel
     const ContactTarget& target = sheets.m_target;
     const FemSoftBody& fem = sheets.m_scope.fem();
     const int objectId = broadphaseId(*target.m_object);
-    for (int i : fem.m_surface.topology().vertices())
+    for (int i : sheets.m_scope.vertices())
     {
         const Vec3& x = fem.surfacePosition()[i];
         const SheetProbe probe = {x, rightSideOf(sheets, i, x, heldNormal[i]), wayOf(fem, target, i),
@@ -158,7 +162,7 @@ void SheetSearch::findOnPaths(SearchScope& scope, const ContactTarget& target, c
     };
     std::size_t k = target.m_first, side = target.m_firstSide;
     bool isCollected = false;
-    for (int i : fem.m_surface.topology().vertices())
+    for (int i : sheets.m_scope.vertices())
     {
         if (side == target.m_endSide) break;
         Vec3 way;
@@ -222,7 +226,7 @@ void SheetSearch::findOnTriangles(const Sheets& sheets, ContactList& list)
             closing = std::max(closing, dot(wayOf(sheets.m_scope.fem(), sheets.m_target, t[a]), feature.m_outward));
         }
         feature.m_reach = sheets.m_scope.m_band + closing;
-        feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
+        feature.m_depth = sheets.m_scope.depthOn(static_cast<int>(k));
         feature.m_thickness = sheets.m_thickness;
         findCornerContacts(m_soup, feature, m_touches);
         considerContacts(sheets, firstFeature + static_cast<int>(k), t, list);
@@ -248,7 +252,8 @@ void SheetSearch::findOnEdges(const Sheets& sheets, ContactList& list)
             sheets.m_scope.m_band +
             std::max(alongCone(wayOf(sheets.m_scope.fem(), sheets.m_target, a), feature.m_outward, cosine),
                      alongCone(wayOf(sheets.m_scope.fem(), sheets.m_target, b), feature.m_outward, cosine));
-        feature.m_depth = kFeatureDepth * sheets.m_scope.m_edge;
+        const auto [first, second] = surface.topology().trianglesOf(static_cast<int>(k));
+        feature.m_depth = std::min(sheets.m_scope.depthOn(first), sheets.m_scope.depthOn(second));
         feature.m_thickness = sheets.m_thickness;
         findEdgeContacts(m_soup, feature, m_touches);
         considerContacts(sheets, firstFeature + static_cast<int>(k), {a, b, a}, list);

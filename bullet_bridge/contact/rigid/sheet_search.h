@@ -62,7 +62,7 @@ private:
     TriangleSoup m_soup;
     std::vector<SheetContact> m_touches;
     std::vector<SheetSide> m_sides;
-    std::vector<Vec3> m_outward;      // unit normals of the nodes
+    std::vector<Vec3> m_outward;      // unit normals of the nodes, weighted by angles
     std::vector<Vec3> m_edgeOutward;  // per edge, sum of the unit normals of both triangles
     bool m_measured = false;          // m_outward and m_edgeOutward are up to date
 };

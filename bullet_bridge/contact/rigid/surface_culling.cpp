@@ -15,12 +15,7 @@ void SurfaceCulling::begin(const SoftSurface& surface, const std::vector<Vec3>& 
     m_gaps.resize(x.size());
     m_low = {kInfinity, kInfinity, kInfinity};
     m_high = -m_low;
-    for (int i : surface.topology().vertices())
-        for (int c = 0; c < 3; ++c)
-        {
-            m_low[c] = std::min(m_low[c], x[i][c]);
-            m_high[c] = std::max(m_high[c], x[i][c]);
-        }
+    for (int i : surface.topology().vertices()) include(x[i]);
     double longest = 0;
     for (const auto& [a, b] : surface.topology().edges())
     {
@@ -28,6 +23,15 @@ void SurfaceCulling::begin(const SoftSurface& surface, const std::vector<Vec3>& 
         longest = std::max(longest, dot(edge, edge));
     }
     m_longestEdge = std::sqrt(longest);
+}
+
+void SurfaceCulling::include(const Vec3& x)
+{
+    for (int c = 0; c < 3; ++c)
+    {
+        m_low[c] = std::min(m_low[c], x[c]);
+        m_high[c] = std::max(m_high[c], x[c]);
+    }
 }
 
 bool SurfaceCulling::meets(const Bounds& bounds)

@@ -19,6 +19,9 @@ public:
     /// Starts with a surface whose vertices are at x [m]; x must outlive the queries, unchanged.
     void begin(const SoftSurface& surface, const std::vector<Vec3>& x);
 
+    /// Enlarges the bounding box of the surface by a point [m].
+    void include(const Vec3& x);
+
     /// Corners of the bounding box of the surface [m].
     const Vec3& low() const { return m_low; }
     const Vec3& high() const { return m_high; }

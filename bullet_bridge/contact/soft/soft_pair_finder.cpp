@@ -9,6 +9,7 @@
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/contact/friction.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/contact/soft/deep_pair_search.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -18,10 +19,11 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPairBand = 0.05;    // width of the contact band over the smaller mean edge [-]
-constexpr double kLittleFall = 0.25;  // largest negligible fall in a step over that edge [-]; see fallsFar()
-constexpr double kPairSlop = 5e-4;    // permitted penetration over the smaller body's size [-]
-constexpr double kSameContact = 0.9;  // smallest cosine between the normals of a contact in consecutive steps
+constexpr double kPairBand = 0.05;     // width of the contact band over the smaller mean edge [-]
+constexpr double kLittleFall = 0.25;   // largest negligible fall in a step over that edge [-]; see fallsFar()
+constexpr double kPairSlop = 5e-4;     // permitted penetration over the smaller body's size [-]
+constexpr double kBesideCosine = 0.7;  // largest cosine between the normal beside a carrying face and that face's
+constexpr double kSameContact = 0.9;   // smallest cosine between the normals of a contact in consecutive steps
 
 // Sum of both contact offsets [m]; 0 for self contact.
 double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
@@ -35,6 +37,11 @@ double fallBetween(const FemSoftBody& first, const FemSoftBody& second, double e
 {
     const double step = first.m_surface.step(), fall = step * step * norm(first.gravity());
     return &first != &second && fall > kLittleFall * edge && std::isfinite(fall) ? fall : 0;
+}
+
+Vec3 velocityOf(const FemSoftBody& fem)
+{
+    return fem.m_search.m_meanMotion.m_velocity;
 }
 
 }  // namespace
@@ -75,14 +82,76 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     roles.m_origin.m_kind = SoftPairKind::edges;
     append(roles, offset);
 
+    if (!self)
+    {
+        dropSeams(first, second, reach, true);
+        dropSeams(second, first, reach, false);
+    }
+    if (!self) partDeep({first, second, roles.m_origin}, reach, offset);
+
     SoftPairReport report;
     report.m_thinned = thin(first, second);
-    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
+    report.m_limited = limit(first, second, maxContacts);
     m_continued.assign(m_last.m_count, 0);
     transferImpulses();
     inheritImpulses(first, second);
     tell(report, contacts, origins);
     return report;
+}
+
+// Drops contacts beside the face by which a body slides on others, if the other body of this pair does not rise above
+// that face by more than bodies sink in: its side ends flush with the ground.
+void SoftPairFinder::dropSeams(const SoftPairSide& slider, const SoftPairSide& ground, const ContactReach& reach,
+                               bool isFirst)
+{
+    const CarryingPlane& plane = slider.m_carrying;
+    if (!plane.m_exists) return;
+    const Vec3 relative = velocityOf(slider.m_fem) - velocityOf(ground.m_fem);
+    const double step = slider.m_fem.m_surface.step();
+    const double slop = kPairSlop * std::min(slider.m_fem.m_surface.size(), ground.m_fem.m_surface.size());
+    const auto isBeside = [&](std::size_t k)
+    {
+        const bool softIsFirst = m_foundOrigins[k].m_kind != SoftPairKind::nodeOfSecond;
+        const Vec3 outward = softIsFirst == isFirst ? -m_found[k].m_normal : m_found[k].m_normal;
+        return std::fabs(dot(outward, plane.m_normal)) < kBesideCosine;
+    };
+    const auto isWall = [&](std::size_t k)
+    { return plane.m_distance - dot(plane.m_normal, m_found[k].m_point) > kSunk * reach.m_edge; };
+    const Vec3 across = relative - dot(relative, plane.m_normal) * plane.m_normal;
+    if (!(step * norm(across) > slop)) return;
+    for (std::size_t k = 0; k < m_found.size(); ++k)
+        if (isBeside(k) && isWall(k)) return;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < m_found.size(); ++k)
+    {
+        if (isBeside(k)) continue;
+        m_found[kept] = m_found[k];
+        m_foundOrigins[kept++] = m_foundOrigins[k];
+    }
+    m_found.resize(kept);
+    m_foundOrigins.resize(kept);
+}
+
+// Replaces the contacts of bodies that are so far inside each other that none shows a way out.
+void SoftPairFinder::partDeep(Roles roles, const ContactReach& reach, double offset)
+{
+    const auto isOut = [&](const ContactPoint& contact) { return contact.m_gap < -reach.m_band; };
+    if (std::any_of(m_found.begin(), m_found.end(), isOut)) return;
+    const SoftSurface &a = roles.m_soft.m_fem.m_surface, &b = roles.m_other.m_fem.m_surface;
+    if (!areDeepInside(a, b)) return;
+    m_found.clear();
+    m_foundOrigins.clear();
+    const Vec3 way = wayApart(b, a);
+    m_touches.clear();
+    findAlong(a, b, way, m_touches);
+    roles.m_origin.m_kind = SoftPairKind::nodeOfFirst;
+    append(roles, offset);
+    m_touches.clear();
+    findAlong(b, a, -way, m_touches);
+    append({roles.m_other,
+            roles.m_soft,
+            {roles.m_origin.m_firstId, roles.m_origin.m_secondId, SoftPairKind::nodeOfSecond, 0, 0}},
+           offset);
 }
 
 SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
@@ -111,7 +180,7 @@ SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSid
         contact.m_slip = last.m_slip;
     }
     SoftPairReport report;
-    report.m_limited = keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
+    report.m_limited = limit(first, second, maxContacts);
     tell(report, contacts, origins);
     return report;
 }
@@ -201,8 +270,26 @@ bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
     const double cells[2] = {ContactReduction::cellOf(first.m_fem), ContactReduction::cellOf(second.m_fem)};
     if (!(cells[0] > 0 || cells[1] > 0)) return false;
     const bool byFirst = cells[0] > 0 && !(cells[1] > 0 && cells[1] < cells[0]);
+    listForReduction(first, second, byFirst, byFirst ? cells[0] : cells[1]);
+    m_reduction.thin(m_found, m_foundOrigins);
+    return true;
+}
+
+// As ContactFinder::limit().
+bool SoftPairFinder::limit(const SoftPairSide& first, const SoftPairSide& second, int maxContacts)
+{
+    if (static_cast<int>(m_found.size()) <= maxContacts) return false;
+    listForReduction(first, second, true, ContactReduction::smallestCellOf(first.m_fem));
+    m_reduction.limit(maxContacts, m_found, m_foundOrigins);
+    keepNearest(maxContacts, m_order, m_found, m_foundOrigins);
+    return true;
+}
+
+// Lists the contacts by their points in the rest shape of one of the bodies.
+void SoftPairFinder::listForReduction(const SoftPairSide& first, const SoftPairSide& second, bool byFirst, double cell)
+{
     const FemSoftBody& fem = (byFirst ? first : second).m_fem;
-    m_reduction.clear(byFirst ? cells[0] : cells[1]);
+    m_reduction.clear(cell);
     const std::vector<Vec3>& X = fem.m_body.m_model->mesh().restPositions();
     for (std::size_t k = 0; k < m_found.size(); ++k)
     {
@@ -215,8 +302,6 @@ bool SoftPairFinder::thin(const SoftPairSide& first, const SoftPairSide& second)
         m_reduction.add(
             {0, contact, point.of(X), contact.m_gap, known && isPushing(m_last.m_contacts[old - m_last.m_origins])});
     }
-    m_reduction.thin(m_found, m_foundOrigins);
-    return true;
 }
 
 void SoftPairFinder::transferImpulses()

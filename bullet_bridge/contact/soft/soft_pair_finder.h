@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bullet_bridge/body/fem_soft_body.h"
+#include "bullet_bridge/contact/carrying_planes.h"
 #include "bullet_bridge/contact/contact_reduction.h"
 #include "bullet_bridge/contact/soft/edge_pair_search.h"
 #include "bullet_bridge/contact/soft/soft_pair_memory.h"
@@ -16,13 +17,14 @@ struct SoftPairSide
 {
     FemSoftBody& m_fem;
     int m_index;
+    CarryingPlane m_carrying = {};  ///< by which it slides on others
 };
 
 /// Results of a search between soft bodies, besides the contacts.
 struct SoftPairReport
 {
     int m_contacts = 0;      ///< number of contacts appended
-    bool m_limited = false;  ///< more contacts than permitted were found; those of smallest gap were kept
+    bool m_limited = false;  ///< more contacts than permitted were found; they were thinned by place
     bool m_thinned = false;  ///< contacts of a fine skin were thinned: see ContactReduction
 };
 
@@ -64,9 +66,13 @@ private:
     void listHeldEdges();
     static ContactPoint commonOf(const FemSoftBody& first, const FemSoftBody& second);
     void append(const Roles& roles, double offset);
+    void dropSeams(const SoftPairSide& slider, const SoftPairSide& ground, const ContactReach& reach, bool isFirst);
+    void partDeep(Roles roles, const ContactReach& reach, double offset);
     static Vec3 patchOf(const Roles& roles, const SurfaceContact& touch, const ContactPoint& contact);
     int remembered(const SoftPairOrigin& origin, const Vec3& normal) const;
     bool thin(const SoftPairSide& first, const SoftPairSide& second);
+    bool limit(const SoftPairSide& first, const SoftPairSide& second, int maxContacts);
+    void listForReduction(const SoftPairSide& first, const SoftPairSide& second, bool byFirst, double cell);
     void transferImpulses();
     void inheritImpulses(const SoftPairSide& first, const SoftPairSide& second);
 

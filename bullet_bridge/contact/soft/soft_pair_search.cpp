@@ -21,6 +21,8 @@ namespace
 constexpr double kStillShare = 0.00625;
 constexpr int kFineTriangles = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
 
+constexpr double kOneSoftFaceCosine = 0.9;  // smallest cosine of normals of contacts with one face that bends
+
 bool isFine(const SoftSurface& surface)
 {
     return surface.topology().triangleCount() >= kFineTriangles;
@@ -28,7 +30,10 @@ bool isFine(const SoftSurface& surface)
 
 }  // namespace
 
-SoftPairSearch::SoftPairSearch(const Threads& threads) : m_threads(threads), m_parts(kParts, Part(m_memory)) {}
+SoftPairSearch::SoftPairSearch(const Threads& threads)
+    : m_threads(threads), m_carrying(kOneSoftFaceCosine), m_parts(kParts, Part(m_memory))
+{
+}
 
 void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int maxContacts)
 {
@@ -54,6 +59,7 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
                       if (!isFine(fem.m_surface)) fem.m_surface.prepareAll();
                       fem.m_search.m_meanMotion = meanMotion(fem.m_body);
                   });
+    listCarrying();
     listNearby(bodies);
     m_threads.run(static_cast<int>(m_fine.size()),
                   [&](int k) { bodies[m_fine[k]]->m_surface.prepareNear(m_nearby[m_fine[k]]); });
@@ -68,18 +74,40 @@ void SoftPairSearch::find(const std::vector<FemSoftBody*>& bodies, double step, 
 
 void SoftPairSearch::collectParts()
 {
-    m_firstOfPart.assign(1, 0);
-    for (const Part& part : m_parts) m_firstOfPart.push_back(m_firstOfPart.back() + part.m_contacts.size());
-    m_contacts.resize(m_firstOfPart.back());
-    m_origins.resize(m_firstOfPart.back());
+    std::size_t count = 0;
+    for (Part& part : m_parts)
+    {
+        part.m_first = count;
+        count += part.m_contacts.size();
+    }
+    m_contacts.resize(count);
+    m_origins.resize(count);
     m_threads.run(kParts,
                   [this](int k)
                   {
-                      const auto first = static_cast<std::ptrdiff_t>(m_firstOfPart[k]);
                       const Part& part = m_parts[k];
+                      const auto first = static_cast<std::ptrdiff_t>(part.m_first);
                       std::copy(part.m_contacts.begin(), part.m_contacts.end(), m_contacts.begin() + first);
                       std::copy(part.m_origins.begin(), part.m_origins.end(), m_origins.begin() + first);
                   });
+}
+
+// Finds the faces by which bodies lay on each other in the last step: each lies on the other.
+void SoftPairSearch::listCarrying()
+{
+    m_carrying.clear();
+    const SoftPairMemory::Last last = m_memory.last();
+    for (std::size_t k = 0; k < last.m_count; ++k)
+    {
+        const ContactPoint& contact = last.m_contacts[k];
+        const SoftPairOrigin& origin = last.m_origins[k];
+        const double size = dot(contact.m_impulse, contact.m_normal);
+        if (!(size > 0) || origin.m_firstId == origin.m_secondId) continue;
+        const bool ofSecond = origin.m_kind == SoftPairKind::nodeOfSecond;
+        m_carrying.add({ofSecond ? origin.m_secondId : origin.m_firstId, size, -contact.m_normal, contact.m_point});
+        m_carrying.add({ofSecond ? origin.m_firstId : origin.m_secondId, size, contact.m_normal, contact.m_point});
+    }
+    m_carrying.find();
 }
 
 // A pair is searched unless both bodies are still and its remembered contacts are complete. Only surfaces of searched
@@ -156,6 +184,12 @@ void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
     m_overlapping.erase(std::unique(m_overlapping.begin(), m_overlapping.end()), m_overlapping.end());
 }
 
+SoftPairSide SoftPairSearch::sideOf(FemSoftBody& fem, int index) const
+{
+    const Vec3 way = fem.m_surface.step() * fem.m_search.m_meanMotion.m_velocity;
+    return {fem, index, m_carrying.planeOf(broadphaseId(*fem.m_softBody), way)};
+}
+
 void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)
 {
     Part& p = m_parts[part];
@@ -165,8 +199,8 @@ void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxC
     for (std::size_t k = begin; k < end; ++k)
     {
         Pair& pair = m_pairs[k];
-        const SoftPairSide first = {*bodies[pair.m_first], pair.m_first},
-                           second = {*bodies[pair.m_second], pair.m_second};
+        const SoftPairSide first = sideOf(*bodies[pair.m_first], pair.m_first);
+        const SoftPairSide second = sideOf(*bodies[pair.m_second], pair.m_second);
         const SoftPairReport found = pair.m_searched
                                          ? p.m_finder.find(first, second, maxContacts, p.m_contacts, p.m_origins)
                                          : p.m_finder.keep(first, second, maxContacts, p.m_contacts, p.m_origins);

@@ -63,6 +63,7 @@ private:
     {
         explicit Part(const SoftPairMemory& memory) : m_finder(memory) {}
         SoftPairFinder m_finder;
+        std::size_t m_first = 0;  // index of its first contact in those of all
         std::vector<ContactPoint> m_contacts;
         std::vector<SoftPairOrigin> m_origins;
     };
@@ -70,12 +71,15 @@ private:
     void listPairs(const std::vector<FemSoftBody*>& bodies);
     void listOverlaps(const std::vector<FemSoftBody*>& bodies);
     void choosePairs();
+    void listCarrying();
     void listNearby(const std::vector<FemSoftBody*>& bodies);
     void collectParts();
+    SoftPairSide sideOf(FemSoftBody& fem, int index) const;
     void findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part);
 
     const Threads& m_threads;
     SoftPairMemory m_memory;
+    CarryingPlanes m_carrying;
     std::vector<Part> m_parts;
     SortedIndex<const btSoftBody*> m_byAddress;
     std::vector<std::pair<int, int>> m_overlapping;  // pairs of bodies, the smaller index first; ascending
@@ -86,7 +90,6 @@ private:
     std::vector<FemSoftBody*> m_moved;                       // bodies of some pair that are not still
     std::vector<int> m_fine;                                 // searched bodies with fine surfaces
     std::vector<std::vector<SurfaceTree::Nearby>> m_nearby;  // per body; filled for those in m_fine
-    std::vector<std::size_t> m_firstOfPart;                  // first contact of each chunk, and the total count
     std::vector<ContactPoint> m_contacts;
     std::vector<SoftPairOrigin> m_origins;
 };

@@ -11,11 +11,6 @@ namespace
 
 constexpr double kFlatSurfaceCosine = 0.99;  // smallest cosine of normals that count as one
 
-double angleBetween(const Vec3& a, const Vec3& b)
-{
-    return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 // An edge of more than two faces is never a ridge; an edge of the boundary is neither ridge nor groove.
 double bendOf(const SoftSurface& surface, int edge)
 {

@@ -17,6 +17,7 @@ struct TriangleRange
     const int *m_begin, *m_end;
     const int* begin() const { return m_begin; }
     const int* end() const { return m_end; }
+    std::size_t size() const { return static_cast<std::size_t>(m_end - m_begin); }
 };
 
 /// The unique edges of a surface, the edges of its triangles, and the triangles at its vertices and edges. Constant.

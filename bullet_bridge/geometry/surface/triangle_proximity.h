@@ -35,6 +35,12 @@ inline Vec3 unit(const Vec3& a)
     return length > 0 ? (1 / length) * a : Vec3();
 }
 
+/// The angle between two vectors [rad].
+inline double angleBetween(const Vec3& a, const Vec3& b)
+{
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
 /// The unit normal of a triangle; zero without area.
 inline Vec3 normalOf(const Corners& t)
 {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Zlib
+// Copyright (c) 2026 The BulletFEM authors
+//
+// Soft cubes that a program puts more than halfway into each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "bullet_fem/btFemVectors.h"
+#include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/soft_boxes.h"
+
+namespace bullet_fem
+{
+namespace
+{
+
+// Coupling, share of the cube that is inside [-], cells along an edge.
+class DeepPair : public testing::TestWithParam<std::tuple<Coupling, double, int>>
+{
+};
+
+TEST_P(DeepPair, PartsWithoutBeingThrown)
+{
+    constexpr double edge = 0.2;  // [m]
+    const auto [coupling, share, cells] = GetParam();
+    FemWorld world(WorldClass::softRigid, coupling);
+    world.addPlane();
+    SoftBox box;
+    box.m_size = {edge, edge, edge};
+    box.m_cells = {cells, cells, cells};
+    box.m_center = {0, 0, edge / 2};
+    box.m_youngModulus = btScalar(1e5);
+    btSoftBody& first = addSoftBox(world, world.fem(), box);
+    box.m_center.x = 5 * edge;
+    btSoftBody& second = addSoftBox(world, world.fem(), box);
+    for (btSoftBody* body : {&first, &second})
+    {
+        body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+        body->forceActivationState(ACTIVE_TAG);
+    }
+    world.step(30);
+    second.translate(btVector3(btScalar(edge * (1 - share) - 5 * edge), 0, 0));
+    double fastest = 0;
+    int flags = 0;
+    for (int k = 0; k < 120; ++k)
+    {
+        world.step();
+        fastest = std::max({fastest, fastestNode(first), fastestNode(second)});
+        flags |= world.fem().stepReport(&first).m_flags;
+    }
+    EXPECT_GT(norm(centerOf(first) - centerOf(second)), 0.95 * edge);
+    EXPECT_LT(fastest, 1.5 * std::sqrt(2 * kGravity * edge));  // one may fall off the other, and turn
+    EXPECT_TRUE(flags & BT_FEM_PENETRATING);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cubes, DeepPair,
+                         testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
+                                          testing::Values(0.65, 0.75, 0.9, 1.0), testing::Values(2, 4)),
+                         [](const auto& suite)
+                         {
+                             return std::string(couplingName(std::get<0>(suite.param))) + "_" +
+                                    std::to_string(std::lround(100 * std::get<1>(suite.param))) + "percent_" +
+                                    std::to_string(std::get<2>(suite.param)) + "cells";
+                         });
+
+}  // namespace
+}  // namespace bullet_fem
