@@ -46,8 +46,8 @@ bool canBeBatched(const BodyModel& model)
 {
     const TetMesh& mesh = model.mesh();
     return hasBatchKernels() && mesh.tetCount() <= kMaxElements && model.factorReport().m_path == FactorPath::full &&
-           model.shape().m_edgeDomains.empty() && !model.shape().isOrthotropic() && mesh.componentCount() == 1 &&
-           mesh.looseCount() == 0 && model.factor().freeNodeCount() == model.nodeCount();
+           !model.shape().isOrthotropic() && mesh.componentCount() == 1 && mesh.looseCount() == 0 &&
+           model.factor().freeNodeCount() == model.nodeCount();
 }
 
 BatchArrays::BatchArrays(const BodyModel& model)

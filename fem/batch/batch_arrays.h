@@ -13,7 +13,7 @@ namespace bullet_fem
 {
 
 /// True if bodies of this model can be solved side by side: a single connected component, not too large, all nodes in a
-/// full factor, and elements that are neither smoothed nor orthotropic.
+/// full factor, and elements that are not orthotropic.
 bool canBeBatched(const BodyModel& model);
 
 /// Scratch arrays for solving kBatchWidth bodies of one model side by side: interleaved, one lane per body.

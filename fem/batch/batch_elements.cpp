@@ -17,7 +17,7 @@
 
 #include "fem/batch/batch_exchange-inl.h"
 #include "fem/batch/lane_element-inl.h"
-#include "fem/elements/element_math-inl.h"
+#include "fem/elements/assumed_strain-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bullet_fem
@@ -100,10 +100,13 @@ HWY_INLINE void forEachPatch(const BatchElements& all, const PatchGroup& group, 
     }
 }
 
-// Adds the elastic forces of patches, and stores elastic stresses in place of tensions.
-HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPass& pass, const PatchGroup& group)
+// Adds the elastic forces of patches, and stores elastic stresses in place of tensions. Patch: PatchStrains or
+// PatchAssumed.
+template <class Patch>
+HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPass& pass, int index)
 {
-    PatchStrains<float> patch;
+    const PatchGroup& group = all.m_rest->m_groups[index];
+    Patch patch;
     forEachPatch(all, group,
                  [&](int first)
                  {
@@ -117,7 +120,7 @@ HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPas
                          for (int k = 0; k < group.m_blocks; ++k)
                          {
                              const int e = first + k * kLanes;
-                             const LaneElement element = {all, &pass, e, body, all.m_lanes->isCopy(e)};
+                             const LaneElement element = {all, &pass, e, body, all.m_lanes->isCopy(e), index};
                              element.storeTension(patch.finish(k, element));
                          }
                      }
@@ -174,15 +177,19 @@ HWY_INLINE void finishBlock(const LaneBlock& block)
 
 HWY_INLINE void passPatches(const BatchElements& all, const BatchElementPass& pass)
 {
-    for (const PatchGroup& group : all.m_rest->m_groups)
+    for (int index = 0; index < static_cast<int>(all.m_rest->m_groups.size()); ++index)
     {
+        const PatchGroup& group = all.m_rest->m_groups[index];
         const auto block = [&](int k) { return LaneBlock{all, pass, (group.m_firstBlock + k) * kLanes, kLanes}; };
         for (int k = 0; k < group.m_blocks; ++k)
         {
             prefetchBodies(block(k));
             rotate(block(k));
         }
-        addPatchForces(all, pass, group);
+        if (all.m_rest->m_filter.empty())
+            addPatchForces<PatchStrains<float> >(all, pass, index);
+        else
+            addPatchForces<PatchAssumed<float> >(all, pass, index);
         for (int k = 0; k < group.m_blocks; ++k) finishBlock(block(k));
     }
 }
@@ -230,8 +237,33 @@ HWY_INLINE void multiplyPatches(const BatchElements& all, double stiffnessFactor
                      });
 }
 
+HWY_INLINE void multiplyAssumed(const BatchElements& all, double stiffnessFactor, const double* p)
+{
+    const F factor = number<float>(stiffnessFactor);
+    PatchAssumedProduct<float> patch;
+    for (int index = 0; index < static_cast<int>(all.m_rest->m_groups.size()); ++index)
+    {
+        const PatchGroup& group = all.m_rest->m_groups[index];
+        forEachPatch(all, group,
+                     [&](int first)
+                     {
+                         for (int body = 0; body < kBatchWidth; body += width<float>())
+                         {
+                             const auto lanes = [&](int k)
+                             { return LaneElement{all, nullptr, first + k * kLanes, body, false, index}; };
+                             for (int k = 0; k < group.m_blocks; ++k)
+                                 patch.add(k, lanes(k), lanes(k).roundedEdgesOf(p));
+                             for (int k = 0; k < group.m_blocks; ++k)
+                                 if (!all.m_lanes->isCopy(first + k * kLanes))
+                                     lanes(k).storeForces(patch.forces(k, lanes(k), factor));
+                         }
+                     });
+    }
+}
+
 HWY_INLINE void multiply(const BatchElements& all, double stiffnessFactor, const double* p)
 {
+    if (!all.m_rest->m_filter.empty()) return multiplyAssumed(all, stiffnessFactor, p);
     if (all.m_rest->hasPatches()) return multiplyPatches(all, stiffnessFactor, p);
     const F factor = number<float>(stiffnessFactor);
     for (int e = 0; e < all.m_count; ++e)

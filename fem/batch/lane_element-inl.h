@@ -36,6 +36,7 @@ struct LaneElement
     const BatchElementPass* m_pass;
     int m_element, m_lane;  // the first body
     bool m_isCopy = false;  // true: discard its forces
+    int m_group = 0;        // of patches
 
     HWY_INLINE const ElementBlock<float>& block() const { return m_all.m_rest->m_blocks[m_element / kLanes]; }
     HWY_INLINE int place() const { return m_element % kLanes; }
@@ -56,6 +57,12 @@ struct LaneElement
     {
         return hn::Set(Lanes<float>(), m_all.m_rest->m_share[m_element / kLanes].m_lane[place()]);
     }
+    HWY_INLINE F filter(int entry) const
+    {
+        return hn::Set(Lanes<float>(), m_all.m_rest->m_filter[m_group].m_entry[entry][place()]);
+    }
+    HWY_INLINE bool hasInitialStress() const { return false; }
+    HWY_INLINE Symmetric<float> initialStress() const { return {}; }
     HWY_INLINE F mu() const { return hn::Set(Lanes<float>(), block().m_muVolume[place()]); }
     HWY_INLINE F damping() const { return number<float>(m_pass->m_damping); }
     HWY_INLINE Matrix<float> DmInverse() const
@@ -129,6 +136,12 @@ struct LaneElement
         for (int k = 0; k < 9; ++k) g.m[k / 3][k % 3] = hn::Load(Lanes<float>(), gradients() + k * kBatchWidth);
         return g;
     }
+    HWY_INLINE void storeRotation(const Matrix<float>& R) const
+    {
+        HWY_UNROLL(9)
+        for (int k = 0; k < 9; ++k) hn::Store(R.m[k / 3][k % 3], Lanes<float>(), gradients() + k * kBatchWidth);
+    }
+    HWY_INLINE Matrix<float> loadRotation() const { return loadGradients(); }
     HWY_INLINE void storeTension(const Symmetric<float>& T) const
     {
         const F entries[6] = {T.xx, T.yy, T.zz, T.yz, T.xz, T.xy};

@@ -15,7 +15,7 @@ namespace bullet_fem
 {
 
 ElasticEnergyScratch::ElasticEnergyScratch(const RestShape& shape)
-    : m_dilatation(shape.m_patches.count()), m_strain(shape.m_edgeDomains.empty() ? 0 : shape.m_elements.size())
+    : m_dilatation(shape.m_patches.count()), m_strain(shape.m_assumedStrain.empty() ? 0 : shape.m_elements.size())
 {
     for (const RestElement& element : shape.m_elements) m_stiffness += 2 * element.m_muVolume + element.m_lambdaVolume;
 }
@@ -43,8 +43,6 @@ StepScratch::StepScratch(const BodyModel& model)
                allocateFloats(model.factor().lower().scratchSize()),
                std::vector<RestModes::Motion>(2 * model.restModes().components().size())}
 {
-    const EdgeSmoothing<float>& smoothing = model.elements().smoothing<float>();
-    if (!smoothing.empty()) m_elements.m_single.m_smoothed.grow(model.elements().blockCount(), smoothing.domainCount());
 }
 
 Workspace::Workspace(const BodyModel& model) : m_scratch(std::make_unique<StepScratch>(model)) {}

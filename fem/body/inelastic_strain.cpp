@@ -107,67 +107,32 @@ SymmetricTensor strainAt(const std::vector<StrainBlock<Real>>& strains, int lane
     return {E[0][k], E[1][k], E[2][k], E[5][k], E[3][k], E[4][k]};
 }
 
-// Replaces the deviators of strains by those that the smoothed stress belongs to: the mean of elastic strains over the
-// edge domains, plus the element's own inelastic strain.
+// Replaces the strains of patches by the assumed ones.
 template <class Real>
-class SmoothedTotals
+void assumeStrains(const RestShape& shape, const ElementLanes& lanes, Range patches,
+                   std::vector<StrainBlock<Real>>& strains)
 {
-public:
-    explicit SmoothedTotals(Body& body)
-        : m_body(body),
-          m_smoothing(body.m_model->elements().smoothing<Real>()),
-          m_strain(body.m_workspace.scratch().m_elements.scratch<Real>().m_smoothed.strain(0))
+    for (int p = patches.m_begin; p < patches.m_end; ++p)
     {
-    }
-
-    void replace(std::vector<StrainBlock<Real>>& strains, const Threads* threads) const
-    {
-        const int blocks = m_body.m_model->elements().blockCount();
-        runRanges(threads, {blocks, kBlocksPerChunk},
-                  [&](Range range) { forEachLane(range, [&](int lane) { storeElastic(strains, lane); }); });
-        runRanges(threads, {m_smoothing.domainCount(), kDomainsPerChunk},
-                  [&](Range domains) { averageStrains(m_smoothing, m_strain, domains); });
-        runRanges(threads, {blocks, kBlocksPerChunk},
-                  [&](Range range) { forEachLane(range, [&](int lane) { storeTotal(strains, lane); }); });
-    }
-
-private:
-    template <class Visit>
-    static void forEachLane(Range blocks, const Visit& visit)
-    {
-        for (int lane = blocks.m_begin * kLanes; lane < blocks.m_end * kLanes; ++lane) visit(lane);
-    }
-
-    void storeElastic(const std::vector<StrainBlock<Real>>& strains, int lane) const
-    {
-        SymmetricTensor elastic = strainAt(strains, lane);
-        elastic += -1.0 * inelasticStrain(m_body, m_body.m_model->elements().m_lanes.m_element[lane]);
-        const double entries[8] = {elastic.xx, elastic.yy, elastic.zz, elastic.yz, elastic.xz, elastic.xy, 0, 0};
-        for (int k = 0; k < 8; ++k)
-            m_strain.m_element[lane / kLanes].m_quad[k / 4][lane % kLanes][k % 4] = static_cast<Real>(entries[k]);
-    }
-
-    void storeTotal(std::vector<StrainBlock<Real>>& strains, int lane) const
-    {
-        const auto& shares = m_smoothing.m_lanes[lane / kLanes];
-        const int at = lane % kLanes;
-        double mean[6];
-        for (int k = 0; k < 6; ++k)
+        const int *element = &shape.m_patches.m_element[shape.m_patches.m_start[p]], count = shape.m_patches.size(p);
+        SymmetricTensor strain[ElementPatches::kMax];
+        double share[ElementPatches::kMax] = {};
+        for (int k = 0; k < count; ++k)
         {
-            mean[k] = double(shares.m_own[at]) * double(m_strain.m_element[lane / kLanes].m_quad[k / 4][at][k % 4]);
-            for (const std::int32_t domain : shares.m_domain[at])
-                mean[k] += double(shares.m_ofDomain[at]) * double(m_strain.m_domain[domain].m_quad[k / 4][k % 4]);
+            strain[k] = strainAt(strains, lanes.m_lane[element[k]]);
+            share[k] = shape.shareOfPatch(element[k]);
         }
-        SymmetricTensor total = {mean[0], mean[1], mean[2], mean[5], mean[3], mean[4]};
-        total += inelasticStrain(m_body, m_body.m_model->elements().m_lanes.m_element[lane]);
-        const double entries[6] = {total.xx, total.yy, total.zz, total.yz, total.xz, total.xy};
-        for (int k = 0; k < 6; ++k) strains[lane / kLanes].m_entry[k][at] = static_cast<Real>(entries[k]);
+        shape.m_assumedStrain.assume(p, count, share, strain);
+        for (int k = 0; k < count; ++k)
+        {
+            const SymmetricTensor& s = strain[k];
+            const double entries[6] = {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy};
+            const int lane = lanes.m_lane[element[k]];
+            for (int i = 0; i < 6; ++i)
+                strains[lane / kLanes].m_entry[i][lane % kLanes] = static_cast<Real>(entries[i]);
+        }
     }
-
-    Body& m_body;
-    const EdgeSmoothing<Real>& m_smoothing;
-    SmoothedStrain<Real> m_strain;
-};
+}
 
 template <class Real>
 void advanceAll(Body& body, const StepSettings& settings)
@@ -185,15 +150,17 @@ void advanceAll(Body& body, const StepSettings& settings)
         for (int lane = blocks.m_begin * kLanes; lane < blocks.m_end * kLanes; ++lane)
             if (!lanes.isCopy(lane)) inelastic.advance(lanes.m_element[lane], strainAt(scratch.m_strain, lane));
     };
-    const bool isSmoothed = smoothsElasticStrain(body);
+    const RestShape& shape = body.m_model->shape();
+    const bool isAssumed = !shape.m_assumedStrain.empty();
     runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk},
               [&](Range blocks)
               {
                   runElementStrains(strains, blocks);
-                  if (!isSmoothed) advance(blocks);
+                  if (!isAssumed) advance(blocks);
               });
-    if (!isSmoothed) return;
-    SmoothedTotals<Real>(body).replace(scratch.m_strain, settings.m_threads);
+    if (!isAssumed) return;
+    runRanges(settings.m_threads, {shape.m_patches.count(), kPatchesPerChunk},
+              [&](Range patches) { assumeStrains(shape, lanes, patches, scratch.m_strain); });
     runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk}, advance);
 }
 

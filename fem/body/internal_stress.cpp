@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <type_traits>
 
 #include "bullet_fem/fem/body/initial_stress.h"
 #include "fem/common/chunks.h"
@@ -62,13 +61,6 @@ bool hasInitialStress(const Body& body)
     return !state.m_initialStress.empty() || !state.m_plasticStrain.empty() || !state.m_relaxedStrain.empty();
 }
 
-bool smoothsElasticStrain(const Body& body)
-{
-    const BodyState& state = body.m_state;
-    return !body.m_model->shape().m_edgeDomains.empty() &&
-           (!state.m_plasticStrain.empty() || !state.m_relaxedStrain.empty());
-}
-
 namespace
 {
 
@@ -112,7 +104,6 @@ SymmetricTensor stressTimesVolume(const Body& body, int e)
     const RestElement& element = body.m_model->shape().m_elements[e];
     SymmetricTensor stress;
     if (!state.m_initialStress.empty()) stress = element.m_volume * givenStress(body, e);
-    if (smoothsElasticStrain(body)) return stress;
     if (!state.m_relaxedStrain.empty()) stress += -2 * element.m_muVolume * relaxedStrain(body, e);
     if (!state.m_plasticStrain.empty()) stress += -2 * element.m_muVolume * state.m_plasticStrain[e];
     return stress;
@@ -123,13 +114,6 @@ SymmetricTensor stressTimesVolume(const Body& body, int e)
 SymmetricTensor initialStress(const Body& body, int e)
 {
     return 1 / body.m_model->shape().m_elements[e].m_volume * stressTimesVolume(body, e);
-}
-
-SymmetricTensor inelasticStrain(const Body& body, int e)
-{
-    SymmetricTensor sum = relaxedStrain(body, e);
-    if (!body.m_state.m_plasticStrain.empty()) sum += body.m_state.m_plasticStrain[e];
-    return sum;
 }
 
 double inelasticEnergy(const Body& body, int e)
@@ -143,9 +127,7 @@ double inelasticEnergy(const Body& body, int e)
         const SymmetricTensor& alpha = state.m_relaxedStrain[static_cast<std::size_t>(e) * terms + i];
         sum += material.m_relaxation[i].m_share * contraction(alpha, alpha);
     }
-    if (smoothsElasticStrain(body))
-        sum -= contraction(relaxedStrain(body, e), relaxedStrain(body, e));
-    else if (!state.m_plasticStrain.empty())
+    if (!state.m_plasticStrain.empty())
     {
         const SymmetricTensor& plastic = state.m_plasticStrain[e];
         sum += contraction(plastic, plastic) + 2 * contraction(plastic, relaxedStrain(body, e));
@@ -156,23 +138,17 @@ double inelasticEnergy(const Body& body, int e)
 namespace
 {
 
-// Stores tensorOf(element) of every lane: xx, yy, zz, yz, xz, xy.
-template <class Block, class Tensor>
-void gather(const Body& body, const Threads* threads, Block* out, const Tensor& tensorOf)
+// V times the stress that does the work of initialStress() in the assumed strain on the element's own strain.
+SymmetricTensor workingStress(const Body& body, int e)
 {
-    const std::vector<int>& elementAt = body.m_model->elements().m_lanes.m_element;
-    using Real = std::remove_reference_t<decltype(out->m_entry[0][0])>;
-    runRanges(threads, {body.m_model->elements().blockCount(), kBlocksPerChunk},
-              [&](Range blocks)
-              {
-                  for (int lane = blocks.m_begin * kLanes; lane < blocks.m_end * kLanes; ++lane)
-                  {
-                      const SymmetricTensor s = tensorOf(elementAt[lane]);
-                      const double entries[6] = {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy};
-                      for (int k = 0; k < 6; ++k)
-                          out[lane / kLanes].m_entry[k][lane % kLanes] = static_cast<Real>(entries[k]);
-                  }
-              });
+    const RestShape& shape = body.m_model->shape();
+    if (shape.m_assumedStrain.empty()) return stressTimesVolume(body, e);
+    const int patch = shape.m_patches.m_patch[e];
+    SymmetricTensor sum;
+    for (int k = shape.m_patches.m_start[patch]; k < shape.m_patches.m_start[patch + 1]; ++k)
+        sum += stressTimesVolume(body, shape.m_patches.m_element[k]);
+    const SymmetricTensor mean = shape.shareOfPatch(e) * sum;
+    return mean + shape.m_assumedStrain.filtered(patch, stressTimesVolume(body, e) + -1.0 * mean);
 }
 
 }  // namespace
@@ -180,18 +156,21 @@ void gather(const Body& body, const Threads* threads, Block* out, const Tensor& 
 template <class Real>
 void gatherInitialStress(const Body& body, const Threads* threads, StressBlock<Real>* out)
 {
-    gather(body, threads, out, [&](int e) { return stressTimesVolume(body, e); });
-}
-
-template <class Real>
-void gatherInelasticStrain(const Body& body, const Threads* threads, StrainBlock<Real>* out)
-{
-    gather(body, threads, out, [&](int e) { return inelasticStrain(body, e); });
+    const std::vector<int>& elementAt = body.m_model->elements().m_lanes.m_element;
+    runRanges(threads, {body.m_model->elements().blockCount(), kBlocksPerChunk},
+              [&](Range blocks)
+              {
+                  for (int lane = blocks.m_begin * kLanes; lane < blocks.m_end * kLanes; ++lane)
+                  {
+                      const SymmetricTensor s = workingStress(body, elementAt[lane]);
+                      const double entries[6] = {s.xx, s.yy, s.zz, s.yz, s.xz, s.xy};
+                      for (int k = 0; k < 6; ++k)
+                          out[lane / kLanes].m_entry[k][lane % kLanes] = static_cast<Real>(entries[k]);
+                  }
+              });
 }
 
 template void gatherInitialStress(const Body&, const Threads*, StressBlock<float>*);
 template void gatherInitialStress(const Body&, const Threads*, StressBlock<double>*);
-template void gatherInelasticStrain(const Body&, const Threads*, StrainBlock<float>*);
-template void gatherInelasticStrain(const Body&, const Threads*, StrainBlock<double>*);
 
 }  // namespace bullet_fem

@@ -50,7 +50,7 @@ struct ElasticEnergyScratch
 
     double m_stiffness = 0;                 ///< sum of (2 mu + lambda) V over the elements [J]
     std::vector<double> m_dilatation;       ///< mean dilatation of every patch [-]
-    std::vector<SymmetricTensor> m_strain;  ///< strain of every element with edge domains [-]
+    std::vector<SymmetricTensor> m_strain;  ///< strain of every element if strains are assumed [-]
 };
 
 /// All data that a step writes besides the state.

@@ -12,7 +12,7 @@ namespace bullet_fem
 
 // Minimum chunk sizes: handing out a chunk costs about as much as 10 us of work.
 constexpr int kBlocksPerChunk = 64;     ///< element blocks, 1,024 elements
-constexpr int kDomainsPerChunk = 1024;  ///< edge domains of strains
+constexpr int kPatchesPerChunk = 128;   ///< patches whose strains are assumed
 constexpr int kNodesPerChunk = 512;     ///< nodes in per-node computations
 constexpr int kEntriesPerChunk = 2048;  ///< entries of vectors that are added or multiplied
 

@@ -106,6 +106,7 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
       m_law(shape.m_materials.isNonlinear() ? lanes.blockCount() : 0),
       m_single(needsSingle(shape) ? lanes.m_element.size() : 0),
       m_share(hasPatches() ? lanes.blockCount() : 0),
+      m_filter(shape.m_assumedStrain.empty() ? 0 : lanes.m_groups.size()),
       m_stiffness(shape.isOrthotropic() ? lanes.blockCount() : 0)
 {
     for (int k = 0; k < blockCount() * kLanes; ++k)
@@ -132,6 +133,21 @@ ElementBlocks<Real>::ElementBlocks(const RestShape& shape, const ElementLanes& l
             storeStiffness(shape.stiffnessOf(e), element, lane, m_stiffness[k / kLanes]);
         if (hasPatches()) m_share[k / kLanes].m_lane[lane] = static_cast<Real>(stiffness * shape.shareOfPatch(e));
     }
+    takeFilters(shape, lanes);
+}
+
+template <class Real>
+void ElementBlocks<Real>::takeFilters(const RestShape& shape, const ElementLanes& lanes)
+{
+    for (std::size_t group = 0; group < m_filter.size(); ++group)
+        for (int lane = 0; lane < kLanes; ++lane)
+        {
+            const int e = lanes.m_element[m_groups[group].m_firstBlock * kLanes + lane];
+            const std::array<double, AssumedStrain::kEntries> square =
+                shape.m_assumedStrain.square(shape.m_patches.m_patch[e]);
+            for (int k = 0; k < AssumedStrain::kEntries; ++k)
+                m_filter[group].m_entry[k][lane] = static_cast<Real>(square[k]);
+        }
 }
 
 template <class Real>

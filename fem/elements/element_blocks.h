@@ -105,6 +105,13 @@ struct alignas(64) StiffnessBlock
     Real m_entry[kStiffnessEntries][kLanes];
 };
 
+/// H^2 of kLanes patches (AssumedStrain), as AssumedStrain::m_filter has H.
+template <class Real>
+struct alignas(64) FilterLanes
+{
+    Real m_entry[AssumedStrain::kEntries][kLanes];
+};
+
 /// The elements of a RestShape in blocks, ordered by ElementLanes. Real: float or double. Constant after construction.
 template <class Real>
 struct ElementBlocks
@@ -125,8 +132,12 @@ struct ElementBlocks
     std::vector<SingleLane> m_single;   ///< one per lane; empty if no law is evaluated one element at a time
     /// One a block: share of each element in its patch's volume [-]; empty without patches.
     std::vector<PatchShares<Real>> m_share;
+    std::vector<FilterLanes<Real>> m_filter;  ///< one per group of patches; empty without assumed strains
     /// One a block; empty if no element is orthotropic, else of all elements.
     std::vector<StiffnessBlock<Real>> m_stiffness;
+
+private:
+    void takeFilters(const RestShape& shape, const ElementLanes& lanes);
 };
 
 /// The corners that each node gathers from. Constant after construction.

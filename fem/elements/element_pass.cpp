@@ -12,8 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
-#include "fem/elements/element_math-inl.h"
-#include "fem/elements/initial_stress-inl.h"
+#include "fem/elements/assumed_strain-inl.h"
 #include "fem/elements/response_elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,6 +47,7 @@ struct PassLanes
     const ElementPass<Real>& m_pass;
     const StagedNodes<Real>& m_nodes;
     int m_block, m_lane;
+    int m_group = 0;  // of patches
 
     HWY_INLINE const ElementBlock<Real>& block() const { return m_pass.m_elements->m_blocks[m_block]; }
     HWY_INLINE Quaternion* rotations() const { return m_pass.m_rotation + m_block * kLanes + m_lane; }
@@ -71,6 +71,11 @@ struct PassLanes
     }
     HWY_INLINE Matrix<Real> velocityEdges() const { return m_nodes.m_v.load(); }
 
+    HWY_INLINE Vector<Real> filter(int entry) const
+    {
+        return hn::Load(Lanes<Real>(), m_pass.m_elements->m_filter[m_group].m_entry[entry] + m_lane);
+    }
+    HWY_INLINE bool hasInitialStress() const { return m_pass.m_initialStress != nullptr; }
     HWY_INLINE Symmetric<Real> initialStress() const
     {
         return loadSymmetric(m_pass.m_initialStress[m_block].m_entry, m_lane);
@@ -90,6 +95,11 @@ struct PassLanes
         for (int k = 0; k < 9; ++k) hn::Store(g.m[k % 3][k / 3], d, out.m_gradient[k] + m_lane);
     }
 
+    HWY_INLINE void storeRotation(const Matrix<Real>& R) const
+    {
+        storeMatrix(R, m_pass.m_warped[m_block].m_gradient, m_lane);
+    }
+    HWY_INLINE Matrix<Real> loadRotation() const { return loadGradients(); }
     HWY_INLINE Matrix<Real> loadGradients() const { return loadMatrix(m_pass.m_warped[m_block].m_gradient, m_lane); }
 
     HWY_INLINE void storeTension(const Symmetric<Real>& T) const
@@ -181,7 +191,7 @@ struct PatchBatch
     int m_column, m_first;
 };
 
-/// Patch: PatchStrains or PatchResponses.
+/// Patch: PatchStrains, PatchAssumed or PatchResponses.
 template <class Patch, class Real>
 HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 {
@@ -210,7 +220,7 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
         const PatchColumn in = column(batch.m_column);
         const PatchBatch next = after(batch);
         const auto lanes = [&](int k) {
-            return PassLanes<Real>{pass, staged[turn][k - batch.m_first], in.m_block + k, in.m_lane};
+            return PassLanes<Real>{pass, staged[turn][k - batch.m_first], in.m_block + k, in.m_lane, in.m_group};
         };
         const int count = HWY_MIN(kBatch, in.m_size - batch.m_first);
         Matrix<Real> F[kBatch];
@@ -232,9 +242,9 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
         if (next.m_column != batch.m_column)
             for (int k = 0; k < in.m_size; ++k)
             {
-                const PassLanes<Real> elements = {pass, staged[turn][0], in.m_block + k, in.m_lane};
+                const PassLanes<Real> elements = {pass, staged[turn][0], in.m_block + k, in.m_lane, in.m_group};
                 Symmetric<Real> stress = patch.finish(k, elements);
-                if (pass.m_initialStress)
+                if (pass.m_initialStress && !std::is_same<Patch, PatchAssumed<Real>>::value)
                     stress = withInitialStress(elements, loadQuaternions(elements.rotations(), Real()),
                                                patch.m_strain[k], stress);
                 patch.storeTension(elements, tensionOf(pass.m_tensionFactor, stress));
@@ -248,6 +258,7 @@ void passUnits(const ElementPass<Real>& pass, Range pieces)
 {
     if (!pass.m_elements->hasPatches()) return passBlocks(pass, pieces);
     if (pass.m_tangent) return passPatches<PatchResponses<Real>>(pass, pieces);
+    if (!pass.m_elements->m_filter.empty()) return passPatches<PatchAssumed<Real>>(pass, pieces);
     passPatches<PatchStrains<Real>>(pass, pieces);
 }
 

@@ -13,8 +13,9 @@ constexpr int kWarpedRows = 15;  ///< rows of a WarpedBlock
 template <class Real>
 struct alignas(64) WarpedBlock
 {
-    Real m_gradient[9][kLanes];  ///< g'_a = R g_a, a = 1, 2, 3 [1/m]
-    Real m_tension[6][kLanes];   ///< tension factor times R V sigma+ R^T: xx, yy, zz, yz, xz, xy
+    Real m_gradient[9][kLanes];  ///< g'_a = R g_a, a = 1, 2, 3 [1/m]; with assumed strains R, row-major
+    /// Tension factor times R V sigma+ R^T, with assumed strains times V sigma+: xx, yy, zz, yz, xz, xy.
+    Real m_tension[6][kLanes];
 
     /// Both arrays as kWarpedRows rows of kLanes numbers.
     Real* rows() { return &m_gradient[0][0]; }

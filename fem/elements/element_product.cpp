@@ -12,6 +12,7 @@
 // after foreach_target.h
 #include <hwy/highway.h>
 
+#include "fem/elements/assumed_strain-inl.h"
 #include "fem/elements/response_elements-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -119,11 +120,62 @@ HWY_INLINE void multiplyResponsePatches(const ElementProduct<Real>& product, Ran
     forEachColumn<Real>(elements.m_groups, groups, stage, compute);
 }
 
+/// The elements of a column, from `m_lane` on of block m_block.
+template <class Real>
+struct ProductLanes
+{
+    const ElementProduct<Real>& m_product;
+    int m_block, m_lane, m_group;
+
+    HWY_INLINE const ElementBlock<Real>& block() const { return m_product.m_elements->m_blocks[m_block]; }
+    HWY_INLINE Vector<Real> share() const
+    {
+        return hn::Load(Lanes<Real>(), m_product.m_elements->m_share[m_block].m_lane + m_lane);
+    }
+    HWY_INLINE Vector<Real> lambda() const { return hn::Load(Lanes<Real>(), block().m_lambdaVolume + m_lane); }
+    HWY_INLINE Vector<Real> mu() const { return hn::Load(Lanes<Real>(), block().m_muVolume + m_lane); }
+    HWY_INLINE Matrix<Real> DmInverse() const { return loadMatrix(block().m_DmInverse, m_lane); }
+    HWY_INLINE Vector<Real> filter(int entry) const
+    {
+        return hn::Load(Lanes<Real>(), m_product.m_elements->m_filter[m_group].m_entry[entry] + m_lane);
+    }
+    HWY_INLINE Matrix<Real> loadRotation() const { return loadMatrix(m_product.m_warped[m_block].m_gradient, m_lane); }
+    HWY_INLINE Symmetric<Real> loadTension() const
+    {
+        return loadSymmetric(m_product.m_warped[m_block].m_tension, m_lane);
+    }
+};
+
+template <class Real>
+HWY_INLINE void multiplyAssumed(const ElementProduct<Real>& product, Range groups)
+{
+    const Vector<Real> factor = number<Real>(product.m_stiffnessFactor);
+    const ElementBlocks<Real>& elements = *product.m_elements;
+    StagedEdges<Real> edges[2][ElementPatches::kMax];
+    PatchAssumedProduct<Real> patch;
+    const auto stage = [&](const PatchColumn& column, int k, int slot)
+    { edges[slot][k].stage(elements.m_blocks[column.m_block + k].m_node + column.m_lane, product.m_p); };
+    const auto compute = [&](const PatchColumn& column, int slot, const auto& other)
+    {
+        const auto lanes = [&](int k) {
+            return ProductLanes<Real>{product, column.m_block + k, column.m_lane, column.m_group};
+        };
+        for (int k = 0; k < column.m_size; ++k) patch.add(k, lanes(k), edges[slot][k].load());
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            other(k);
+            storeCorners(patch.forces(k, lanes(k), factor), product.m_out[column.m_block + k], column.m_lane);
+        }
+    };
+    forEachColumn<Real>(elements.m_groups, groups, stage, compute);
+}
+
 template <class Real>
 void multiplyUnits(const ElementProduct<Real>& product, Range pieces)
 {
     if (!product.m_elements->hasPatches()) return multiplyBlocks(product, pieces);
     if (product.m_tangent) return multiplyResponsePatches(product, pieces);
+    if (!product.m_elements->m_filter.empty()) return multiplyAssumed(product, pieces);
     multiplyPatches(product, pieces);
 }
 

@@ -7,31 +7,9 @@
 #include "fem/elements/element_pass.h"
 #include "fem/elements/node_rotations.h"
 #include "fem/elements/orthotropic_elements.h"
-#include "fem/elements/smoothed_elements.h"
 
 namespace bullet_fem
 {
-
-/// Output arrays of the kernels of smoothed elements; empty without smoothing.
-template <class Real>
-struct SmoothedScratch
-{
-    void grow(int blocks, int domains)
-    {
-        m_warped.resize(blocks);
-        m_tension.resize(blocks);
-        for (auto& strain : m_strain) strain.resize(blocks);
-        for (auto& mean : m_mean) mean.resize(domains);
-    }
-
-    SmoothedStrain<Real> strain(int k) { return {m_strain[k].data(), m_mean[k].data()}; }
-
-    std::vector<SmoothedBlock<Real>> m_warped;
-    std::vector<TensionBlock<Real>> m_tension;
-    std::vector<StrainQuads<Real>> m_strain[2];  ///< elastic and damped of the pass; products use the first
-    std::vector<DomainStrain<Real>> m_mean[2];   ///< means over the edge domains of m_strain
-    std::vector<StrainBlock<Real>> m_inelastic;  ///< plastic and relaxed strain; empty without
-};
 
 /// Output arrays of one body's element kernels in a step, in one precision.
 template <class Real>
@@ -49,7 +27,6 @@ struct ElementScratch
     std::vector<TangentBlock<Real>> m_tangent;          ///< empty without laws that vary
     std::vector<StrainBlock<Real>> m_strain;            ///< empty until inelastic strains are needed
     std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< empty without orthotropic elements
-    SmoothedScratch<Real> m_smoothed;
 };
 
 /// Number of steps that stay prepared for impulses after one that had some: preparing late costs as much as preparing

@@ -146,10 +146,10 @@ HWY_INLINE void forEachVector(Range blocks, const Stage& stage, const Compute& c
     }
 }
 
-/// Elements of as many patches as a vector has lanes: from `m_lane` on in each of `m_size` blocks.
+/// Elements of as many patches as a vector has lanes: from `m_lane` on in each of `m_size` blocks of a group.
 struct PatchColumn
 {
-    int m_block, m_lane, m_size;
+    int m_block, m_lane, m_size, m_group;
 };
 
 /// The column of an index; columns are numbered group by group.
@@ -158,7 +158,7 @@ HWY_INLINE PatchColumn patchColumn(const std::vector<PatchGroup>& groups, int co
 {
     constexpr int kVectors = kLanes / width<Real>();  // vectors in a block
     const PatchGroup& group = groups[column / kVectors];
-    return {group.m_firstBlock, column % kVectors * width<Real>(), group.m_blocks};
+    return {group.m_firstBlock, column % kVectors * width<Real>(), group.m_blocks, column / kVectors};
 }
 
 /// Calls stage(column, k, slot) for every element k of every column of the groups, and then compute(column, slot,
@@ -176,7 +176,7 @@ HWY_INLINE void forEachColumn(const std::vector<PatchGroup>& groups, Range range
     for (int k = 0; k < now.m_size; ++k) stage(now, k, c % 2);
     for (; c < end; ++c)
     {
-        const PatchColumn next = c + 1 < end ? column(c + 1) : PatchColumn{0, 0, 0};
+        const PatchColumn next = c + 1 < end ? column(c + 1) : PatchColumn{0, 0, 0, 0};
         const auto other = [&](int k)
         {
             if (k < next.m_size) stage(next, k, (c + 1) % 2);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include "fem/elements/smoothed_elements.h"
+#include "fem/elements/element_blocks.h"
 
 namespace bullet_fem
 {
@@ -11,12 +11,7 @@ namespace bullet_fem
 struct ModelElements
 {
     explicit ModelElements(const RestShape& shape)
-        : m_lanes(shape),
-          m_single(shape, m_lanes),
-          m_double(shape, m_lanes),
-          m_nodes(shape, m_lanes),
-          m_singleSmoothing(shape, m_lanes),
-          m_doubleSmoothing(shape, m_lanes)
+        : m_lanes(shape), m_single(shape, m_lanes), m_double(shape, m_lanes), m_nodes(shape, m_lanes)
     {
     }
 
@@ -29,22 +24,11 @@ struct ModelElements
         else
             return m_double;
     }
-    /// Edge smoothing; empty without smoothed strains.
-    template <class Real>
-    const EdgeSmoothing<Real>& smoothing() const
-    {
-        if constexpr (sizeof(Real) == sizeof(float))
-            return m_singleSmoothing;
-        else
-            return m_doubleSmoothing;
-    }
 
     ElementLanes m_lanes;
     ElementBlocks<float> m_single;
     ElementBlocks<double> m_double;
     NodeCorners m_nodes;
-    EdgeSmoothing<float> m_singleSmoothing;
-    EdgeSmoothing<double> m_doubleSmoothing;
 };
 
 }  // namespace bullet_fem

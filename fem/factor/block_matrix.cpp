@@ -3,7 +3,9 @@
 #include "fem/factor/block_matrix.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
 namespace bullet_fem
@@ -57,6 +59,66 @@ BlockMatrix emptyMatrix(const RestShape& shape)
     }
     matrix.m_block.resize(matrix.m_column.size());
     return matrix;
+}
+
+/// Strains with doubled shears that a patch's nodal displacements cause, one for each component of each node.
+using NodalStrains = std::vector<std::array<double, 6>>;
+
+/// Strain of element e for the displacement u of a node.
+SymmetricTensor strainOfNode(const RestShape& shape, int e, int node, const Vec3& u)
+{
+    const Tet& tet = shape.m_mesh.tets()[e];
+    const auto at = std::find(tet.begin(), tet.end(), node);
+    if (at == tet.end()) return {};
+    return symmetricPart(outer(u, shapeGradient(shape.m_elements[e], static_cast<int>(at - tet.begin()))));
+}
+
+// Adds V B^T C B.
+void addProducts(const std::vector<int>& nodes, const NodalStrains& B, const ElasticMatrix& C, double volume,
+                 BlockMatrix& K)
+{
+    for (std::size_t column = 0; column < B.size(); ++column)
+    {
+        std::array<double, 6> stress = {};
+        for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 6; ++j) stress[i] += volume * C(i, j) * B[column][j];
+        for (std::size_t row = 0; row < B.size(); ++row)
+            K.at(nodes[row / 3], nodes[column / 3])(row % 3, column % 3) +=
+                std::inner_product(stress.begin(), stress.end(), B[row].begin(), 0.0);
+    }
+}
+
+// Adds V B~^T C B~ of every element, B~ = B_p + H_p (B_e - B_p) with the mean B_p over the patch (AssumedStrain).
+void addAssumed(const RestShape& shape, BlockMatrix& K)
+{
+    const ElementPatches& patches = shape.m_patches;
+    for (int p = 0; p < patches.count(); ++p)
+    {
+        const std::vector<int> nodes = nodesOf(shape, p);
+        const int *element = &patches.m_element[patches.m_start[p]], count = patches.size(p);
+        double share[ElementPatches::kMax];
+        for (int k = 0; k < count; ++k) share[k] = shape.shareOfPatch(element[k]);
+        std::vector<NodalStrains> B(count, NodalStrains(3 * nodes.size()));
+        for (std::size_t column = 0; column < 3 * nodes.size(); ++column)
+        {
+            const Vec3 u = {column % 3 == 0 ? 1.0 : 0.0, column % 3 == 1 ? 1.0 : 0.0, column % 3 == 2 ? 1.0 : 0.0};
+            SymmetricTensor strain[ElementPatches::kMax];
+            for (int k = 0; k < count; ++k) strain[k] = strainOfNode(shape, element[k], nodes[column / 3], u);
+            shape.m_assumedStrain.assume(p, count, share, strain);
+            for (int k = 0; k < count; ++k)
+            {
+                const SymmetricTensor& s = strain[k];
+                B[k][column] = {s.xx, s.yy, s.zz, 2 * s.yz, 2 * s.xz, 2 * s.xy};
+            }
+        }
+        for (int k = 0; k < count; ++k)
+        {
+            const RestElement& rest = shape.m_elements[element[k]];
+            const LameModuli moduli = {rest.m_muVolume / rest.m_volume, rest.m_lambdaVolume / rest.m_volume};
+            addProducts(nodes, B[k], shape.isOrthotropic() ? shape.stiffnessOf(element[k]) : isotropicStiffness(moduli),
+                        rest.m_volume, K);
+        }
+    }
 }
 
 // Adds (lambda + 2/3 mu) V G_i G_j^T of every patch.
@@ -123,6 +185,7 @@ Mat3 elementStiffnessBlock(const RestElement& element, const ElasticMatrix& C, i
 BlockMatrix assembleRestStiffness(const RestShape& shape)
 {
     BlockMatrix K = emptyMatrix(shape);
+    if (!shape.m_assumedStrain.empty()) return addAssumed(shape, K), K;
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
     {
         const Tet& tet = shape.m_mesh.tets()[e];

@@ -74,14 +74,13 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
         for (int node : tet) m_lumpedMass[node] += density * massScale * element.m_volume / 4;
     }
     if (!m_materials.usesMeanDilatation()) return;
-    const std::vector<int> groups = m_materials.patchGroups();
-    m_patches = ElementPatches(m_mesh, groups);
+    m_patches = ElementPatches(m_mesh, m_materials.patchGroups());
     m_patchVolume.assign(m_patches.count(), 0.0);
     for (int e = 0; e < m_mesh.tetCount(); ++e) m_patchVolume[m_patches.m_patch[e]] += m_elements[e].m_volume;
     if (!m_materials.bendsAccurately()) return;
     std::vector<double> volume;
     for (const RestElement& element : m_elements) volume.push_back(element.m_volume);
-    m_edgeDomains = EdgeDomains(m_mesh, m_materials, groups, volume);
+    m_assumedStrain = AssumedStrain(m_mesh, m_materials, m_patches, volume);
 }
 
 double RestShape::shareOfPatch(int e) const

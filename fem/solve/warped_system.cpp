@@ -80,36 +80,6 @@ void runPass(const ElementPass<Real>& pass, const Threads* threads)
               [&](Range pieces) { runElementPass(pass, pieces); });
 }
 
-// Runs the smoothed parts one after another, each over all elements: `parts` is a pass or a product.
-template <class Real, class Parts>
-void runSmoothed(const Parts& parts, const ElementBlocks<Real>& elements, const SmoothedStrain<Real>* strain,
-                 int strains, const Threads* threads)
-{
-    runRanges(threads, {elements.workUnitCount(), elements.workUnitsPerChunk()},
-              [&](Range pieces) { findStrains(parts, pieces); });
-    for (int k = 0; k < strains; ++k)
-        runRanges(threads, {parts.m_smoothing->domainCount(), kDomainsPerChunk},
-                  [&](Range domains) { averageStrains(*parts.m_smoothing, strain[k], domains); });
-    runRanges(threads, {elements.blockCount(), kBlocksPerChunk}, [&](Range blocks) { findForces(parts, blocks); });
-}
-
-template <class Real>
-void runSmoothedPass(Body& body, const ElementPass<Real>& pass, const Threads* threads)
-{
-    const EdgeSmoothing<Real>& smoothing = body.m_model->elements().smoothing<Real>();
-    SmoothedScratch<Real>& scratch = body.m_workspace.scratch().m_elements.scratch<Real>().m_smoothed;
-    scratch.grow(pass.m_elements->blockCount(), smoothing.domainCount());
-    const SmoothedStrain<Real> strain[2] = {scratch.strain(0), scratch.strain(1)};
-    SmoothedPass<Real> parts = {pass, &smoothing, strain[0], strain[1], scratch.m_warped.data()};
-    if (smoothsElasticStrain(body))
-    {
-        scratch.m_inelastic.resize(pass.m_elements->blockCount());
-        gatherInelasticStrain(body, threads, scratch.m_inelastic.data());
-        parts.m_inelastic = scratch.m_inelastic.data();
-    }
-    runSmoothed(parts, *pass.m_elements, strain, 2, threads);
-}
-
 template <class Real>
 void runOrthotropic(Body& body, const ElementPass<Real>& pass, const Threads* threads)
 {
@@ -127,10 +97,8 @@ void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3
     const ElementPass<Real> pass = passOver<Real>(body, settings);
     if (!pass.m_elements->m_stiffness.empty())
         runOrthotropic(body, pass, settings.m_threads);
-    else if (body.m_model->elements().smoothing<Real>().empty())
-        runPass(pass, settings.m_threads);
     else
-        runSmoothedPass(body, pass, settings.m_threads);
+        runPass(pass, settings.m_threads);
     sumOverNodes(settings.m_threads,
                  NodeSums<Real>{&body.m_model->elements().m_nodes, pass.m_force, nullptr, nullptr, force.data()});
 }
@@ -147,23 +115,15 @@ void product(const Body& body, const Threads* threads, double stiffnessFactor, b
     const ElementProduct<Real> forces = {
         &blocks,         scratch.m_warped.data(),  stiffnessFactor,
         work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_tangent.data()};
-    const EdgeSmoothing<Real>& smoothing = elements.smoothing<Real>();
     if (!blocks.m_stiffness.empty())
     {
         const OrthotropicProduct<Real> orthotropic = {forces, scratch.m_orthotropic.data()};
         runRanges(threads, {blocks.blockCount(), kBlocksPerChunk},
                   [&](Range range) { runOrthotropicProduct(orthotropic, range); });
     }
-    else if (smoothing.empty())
+    else
         runRanges(threads, {forces.m_elements->workUnitCount(), forces.m_elements->workUnitsPerChunk()},
                   [&](Range pieces) { runElementProduct(forces, pieces); });
-    else
-    {
-        const SmoothedStrain<Real> strain = scratch.m_smoothed.strain(0);
-        const SmoothedProduct<Real> parts = {forces, &smoothing, strain, scratch.m_smoothed.m_tension.data(),
-                                             scratch.m_smoothed.m_warped.data()};
-        runSmoothed(parts, *forces.m_elements, &strain, 1, threads);
-    }
     if (!withMass) std::fill(out.begin(), out.end(), Vec3());
     sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(),
                                          withMass ? work.m_scaledMass.data() : nullptr, work.m_x.data(), out.data()});

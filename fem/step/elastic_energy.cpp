@@ -16,26 +16,6 @@ namespace bullet_fem
 namespace
 {
 
-// Sum over all edge domains of mu |dev(s_k)|^2 times the smoothed volume.
-double energyOfDomains(const RestShape& shape, const std::vector<SymmetricTensor>& strain)
-{
-    const EdgeDomains& domains = shape.m_edgeDomains;
-    double energy = 0;
-    for (int d = 0; d < domains.count(); ++d)
-    {
-        SymmetricTensor mean;
-        double muVolume = 0;
-        for (int k = domains.m_start[d]; k < domains.m_start[d + 1]; ++k)
-        {
-            const int e = domains.m_element[k];
-            mean += domains.m_weight[k] * deviator(strain[e]);
-            muVolume += domains.m_share[e] / 6 * shape.m_elements[e].m_muVolume;
-        }
-        energy += muVolume * contraction(mean, mean);
-    }
-    return energy;
-}
-
 // F of element e at positions x.
 Mat3 deformationGradient(const RestShape& shape, int e, const std::vector<Vec3>& x)
 {
@@ -46,46 +26,72 @@ Mat3 deformationGradient(const RestShape& shape, int e, const std::vector<Vec3>&
 
 }  // namespace
 
-// Element energy: V W(E) of the law, E = sym(R^T F) - I, with the share of lambda that patches average of the patch's
-// mean volume change; a smoothed deviator contributes its unsmoothed share and that of its edge domains; initial stress
-// adds V sigma_0 : E. The state's rotations are those of the start of the last step, outdated in a spinning body: R is
+namespace
+{
+
+// E = sym(R^T F) - I. The state's rotations are those of the start of the last step, outdated in a spinning body: R is
 // recomputed.
+SymmetricTensor strainOf(const Body& body, int e, const std::vector<Vec3>& x)
+{
+    const Mat3 F = deformationGradient(body.m_model->shape(), e, x);
+    const int lane = body.m_model->elements().m_lanes.m_lane[e];
+    const Mat3 R = polarRotation(F, toMatrix(body.m_state.m_elementRotation[lane]));
+    return symmetricPart(transposeTimes(R, F) - Mat3::identity());
+}
+
+// Stores the assumed strains of all elements.
+void assumeStrains(const Body& body, const std::vector<Vec3>& x, std::vector<SymmetricTensor>& strains)
+{
+    const RestShape& shape = body.m_model->shape();
+    const ElementPatches& patches = shape.m_patches;
+    for (int p = 0; p < patches.count() && !shape.m_assumedStrain.empty(); ++p)
+    {
+        const int *element = &patches.m_element[patches.m_start[p]], count = patches.size(p);
+        SymmetricTensor strain[ElementPatches::kMax];
+        double share[ElementPatches::kMax] = {};
+        for (int k = 0; k < count; ++k)
+        {
+            strain[k] = strainOf(body, element[k], x);
+            share[k] = shape.shareOfPatch(element[k]);
+        }
+        shape.m_assumedStrain.assume(p, count, share, strain);
+        for (int k = 0; k < count; ++k) strains[element[k]] = strain[k];
+    }
+}
+
+}  // namespace
+
+// Element energy: V W(E) of the law, with the share of lambda that patches average of the patch's mean volume change;
+// initial stress adds V sigma_0 : E.
 double elasticEnergy(const Body& body, const std::vector<Vec3>& x)
 {
     const RestShape& shape = body.m_model->shape();
     const ElementPatches& patches = shape.m_patches;
-    const EdgeDomains& domains = shape.m_edgeDomains;
-    const std::vector<int>& lane = body.m_model->elements().m_lanes.m_lane;
     const BodyState& s = body.m_state;
     ElasticEnergyScratch& scratch = body.m_workspace.scratch().m_elasticEnergy;
     std::fill(scratch.m_dilatation.begin(), scratch.m_dilatation.end(), 0.0);
+    assumeStrains(body, x, scratch.m_strain);
     double energy = 0;
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
     {
         const double volume = shape.m_elements[e].m_volume;
-        const Mat3 F = deformationGradient(shape, e, x);
-        const Mat3 E = transposeTimes(polarRotation(F, toMatrix(s.m_elementRotation[lane[e]])), F) - Mat3::identity();
-        const Mat3 symmetric = 0.5 * (E + transpose(E));
+        const SymmetricTensor strain = shape.m_assumedStrain.empty() ? strainOf(body, e, x) : scratch.m_strain[e];
         const Law& law = lawOf(shape.materialOf(e).m_law);
         LawPoint point = lawPointOf(shape, e, s.m_lawHistory.data());
         if (!patches.empty())
         {
-            scratch.m_dilatation[patches.m_patch[e]] += shape.shareOfPatch(e) * volumeChange(law, symmetric);
+            scratch.m_dilatation[patches.m_patch[e]] += shape.shareOfPatch(e) * volumeChange(law, toMatrix(strain));
             shareWithPatch(law, 0, point);
         }
-        const Mat3 elastic = smoothsElasticStrain(body) ? symmetric - toMatrix(inelasticStrain(body, e))
-                                                        : symmetric;  // of smoothed parts
-        if (!domains.empty()) scratch.m_strain[e] = symmetricPart(elastic);
-        const double share = domains.empty() ? 1 : 1 - domains.m_share[e];
-        energy += share * volume * law.m_respond(elastic, point).m_energy;
+        energy += volume * law.m_respond(toMatrix(strain), point).m_energy;
         if (hasInitialStress(body))
-            energy += volume * contraction(initialStress(body, e), symmetricPart(E)) + inelasticEnergy(body, e);
+            energy += volume * contraction(initialStress(body, e), strain) + inelasticEnergy(body, e);
     }
     for (int e = 0; e < shape.m_mesh.tetCount() && !patches.empty(); ++e)
         energy += shape.m_elements[e].m_volume * sharedEnergy(lawOf(shape.materialOf(e).m_law),
                                                               scratch.m_dilatation[patches.m_patch[e]],
                                                               lawPointOf(shape, e, s.m_lawHistory.data()));
-    return domains.empty() ? energy : energy + energyOfDomains(shape, scratch.m_strain);
+    return energy;
 }
 
 }  // namespace bullet_fem

@@ -61,40 +61,6 @@ SymmetricTensor strainOf(const LeftStretch& found)
     return strain;
 }
 
-// Strain of an element without plastic and relaxed strain.
-SymmetricTensor elasticStrain(const Body& body, int e)
-{
-    SymmetricTensor strain = strainOf(leftStretch(body, e));
-    if (smoothsElasticStrain(body)) strain += -1.0 * inelasticStrain(body, e);
-    return strain;
-}
-
-// Elastic strain of an element with accurate bending, averaged over its edge domains. `strains`: of all elements, or
-// empty to compute them on demand.
-SymmetricTensor smoothedStrain(const Body& body, int e, const std::vector<SymmetricTensor>& strains)
-{
-    const EdgeDomains& domains = body.m_model->shape().m_edgeDomains;
-    const auto own = [&](int other) { return strains.empty() ? elasticStrain(body, other) : strains[other]; };
-    const double share = domains.m_share[e];
-    SymmetricTensor sum = (1 - share) * own(e);
-    if (share == 0) return sum;
-    for (const int d : domains.m_domain[e])
-        for (int k = domains.m_start[d]; k < domains.m_start[d + 1]; ++k)
-            sum += share / 6 * domains.m_weight[k] * own(domains.m_element[k]);
-    return sum;
-}
-
-// sigma = R (2 mu dev(s) + (lambda + 2/3 mu) theta I + sigma_0) R^T
-Stress smoothedStress(const Body& body, int e, const Mat3& R, double theta, const std::vector<SymmetricTensor>& strains)
-{
-    const Material& material = body.m_model->shape().materialOf(e);
-    Stress s = 2 * material.lameMu() * deviator(smoothedStrain(body, e, strains));
-    const double pressure = (material.lameLambda() + 2.0 / 3 * material.lameMu()) * theta;
-    s.xx += pressure, s.yy += pressure, s.zz += pressure;
-    if (hasInitialStress(body)) s += initialStress(body, e);
-    return symmetricPart(R * timesTranspose(toMatrix(s), R));
-}
-
 // sigma = R (dW/dS + sigma_0) R^T. An isotropic law commutes with R.
 Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilatation)
 {
@@ -112,6 +78,22 @@ Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilata
     return s += symmetricPart(found.m_R * timesTranspose(toMatrix(own), found.m_R));
 }
 
+// Replaces the stretches of a patch's elements by those of the assumed strains.
+void assumeStretches(const RestShape& shape, int patch, int count, LeftStretch* left)
+{
+    if (shape.m_assumedStrain.empty()) return;
+    SymmetricTensor strain[ElementPatches::kMax];
+    double share[ElementPatches::kMax] = {};
+    for (int k = 0; k < count; ++k)
+    {
+        strain[k] = strainOf(left[k]);
+        share[k] = shape.shareOfPatch(shape.m_patches.m_element[shape.m_patches.m_start[patch] + k]);
+    }
+    shape.m_assumedStrain.assume(patch, count, share, strain);
+    for (int k = 0; k < count; ++k)
+        left[k].m_stretch = Mat3::identity() + left[k].m_R * timesTranspose(toMatrix(strain[k]), left[k].m_R);
+}
+
 // Calls visit(e, left stretch, dilatation) for the elements of a patch.
 template <class Visit>
 void visitPatch(const Body& body, int patch, const Visit& visit)
@@ -121,11 +103,10 @@ void visitPatch(const Body& body, int patch, const Visit& visit)
     const int count = shape.m_patches.size(patch);
     LeftStretch left[ElementPatches::kMax];
     double dilatation = 0;
+    for (int k = 0; k < count; ++k) left[k] = leftStretch(body, element[k]);
+    assumeStretches(shape, patch, count, left);
     for (int k = 0; k < count; ++k)
-    {
-        left[k] = leftStretch(body, element[k]);
         dilatation += shape.shareOfPatch(element[k]) * volumeChangeOf(body, element[k], left[k]);
-    }
     for (int k = 0; k < count; ++k) visit(element[k], left[k], dilatation);
 }
 
@@ -134,7 +115,6 @@ void visitPatch(const Body& body, int patch, const Visit& visit)
 Stress elementStress(const Body& body, int e)
 {
     const BodyModel& model = *body.m_model;
-    const bool isSmoothed = !model.shape().m_edgeDomains.empty();
     if (model.shape().m_patches.empty())
     {
         const LeftStretch left = leftStretch(body, e);
@@ -144,9 +124,7 @@ Stress elementStress(const Body& body, int e)
     visitPatch(body, model.shape().m_patches.m_patch[e],
                [&](int other, const LeftStretch& left, double dilatation)
                {
-                   if (other != e) return;
-                   stress = isSmoothed ? smoothedStress(body, e, left.m_R, dilatation, {})
-                                       : stressOf(body, e, left, dilatation);
+                   if (other == e) stress = stressOf(body, e, left, dilatation);
                });
     return stress;
 }
@@ -156,16 +134,10 @@ void elementStresses(const Body& body, std::vector<Stress>& perElement)
     const BodyModel& model = *body.m_model;
     perElement.resize(model.mesh().tetCount());
     const ElementPatches& patches = model.shape().m_patches;
-    std::vector<SymmetricTensor> strains;
-    if (!model.shape().m_edgeDomains.empty())
-        for (int e = 0; e < model.mesh().tetCount(); ++e) strains.push_back(elasticStrain(body, e));
     for (int p = 0; p < patches.count(); ++p)
         visitPatch(body, p,
                    [&](int e, const LeftStretch& left, double dilatation)
-                   {
-                       perElement[e] = strains.empty() ? stressOf(body, e, left, dilatation)
-                                                       : smoothedStress(body, e, left.m_R, dilatation, strains);
-                   });
+                   { perElement[e] = stressOf(body, e, left, dilatation); });
     if (!patches.empty()) return;
     for (std::size_t e = 0; e < perElement.size(); ++e) perElement[e] = elementStress(body, static_cast<int>(e));
 }

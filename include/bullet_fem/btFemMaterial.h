@@ -72,9 +72,9 @@ struct BULLETFEM_API btFemMaterial
     btFemRelaxation m_relaxation[kMaxRelaxationTerms];
     /// Constitutive law; E and nu are its small-strain constants. Only hooke can yield or relax.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
-    /// Accurate bending: averages shear strains around edges, as volume changes over patches, against locking in
-    /// bending. Bars of two or more cells across have a bending error of at most 6 %; a step takes two to three times
-    /// as long. Not available with mean dilatation off, and for the law hooke alone (docs/materials.md).
+    /// Accurate bending: strains of an element that differ from its patch's mean count less, against locking in
+    /// bending. Bars of two or more cells across have a bending error of at most 5 %; a step takes 1.3 to 1.7 times as
+    /// long. Not available with mean dilatation off, and for the law hooke alone (docs/materials.md).
     bool m_accurateBending = false;
     /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
     /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,

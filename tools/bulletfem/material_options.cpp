@@ -130,8 +130,7 @@ void MaterialOptions::add(CLI::App& command)
             "--mean-dilatation", m_meanDilatation,
             "auto, on or off: volume changes are averaged over neighbouring elements (default auto: above nu .4)")
         ->check(CLI::IsMember({"auto", "on", "off"}));
-    command.add_flag("--accurate-bending", m_accurateBending,
-                     "averages strains around edges, for accurate bending of thin parts");
+    command.add_flag("--accurate-bending", m_accurateBending, "assumed strains, for accurate bending of thin parts");
     command
         .add_option("--law", m_law,
                     "hooke, or neoHooke, which stiffens in tension and compression (default: the material's; that of "

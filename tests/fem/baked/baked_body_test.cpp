@@ -158,7 +158,7 @@ TEST(Baking, KeepsThatTheMaterialBendsAccurately)
         const BakedBody read = readBakedBody(folder.path("body.bfem"));
         EXPECT_EQ(read.m_model->shape().m_material.m_accurateBending, isAccurate);
         EXPECT_EQ(read.m_model->shape().m_material.m_meanDilatation, MeanDilatation::automatic);
-        EXPECT_EQ(read.m_model->shape().m_edgeDomains.empty(), !isAccurate);
+        EXPECT_EQ(read.m_model->shape().m_assumedStrain.empty(), !isAccurate);
         EXPECT_EQ(coordinatesAfterFalling(read), coordinatesAfterFalling(baked));
     }
 }

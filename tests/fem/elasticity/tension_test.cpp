@@ -101,21 +101,21 @@ TEST_P(ElasticityTension, NeverSettlesWithoutTheTensionTerm)
 
 // --- Steps that vary ---
 
-struct Swing
+struct VaryingSwing
 {
     double m_young, m_poisson;    // [Pa], [-]
     std::vector<double> m_rates;  // [Hz], cyclically
     double m_numericalDamping;    // [-]
 };
 
-void PrintTo(const Swing& swing, std::ostream* out)
+void PrintTo(const VaryingSwing& swing, std::ostream* out)
 {
     *out << swing.m_young << " Pa, nu " << swing.m_poisson << ", steps of";
     for (const double rate : swing.m_rates) *out << ' ' << rate;
     *out << " Hz, s " << swing.m_numericalDamping;
 }
 
-class TensionInVaryingSteps : public testing::TestWithParam<std::tuple<Swing, bool>>  // true: accurate bending
+class TensionInVaryingSteps : public testing::TestWithParam<std::tuple<VaryingSwing, bool>>  // true: accurate bending
 {
 };
 
@@ -145,11 +145,12 @@ TEST_P(TensionInVaryingSteps, AddsNoEnergy)
 }
 
 // Without damping by T the first three cases reach 1e4 times the initial energy, the last one 2e3.
-INSTANTIATE_TEST_SUITE_P(
-    Bars, TensionInVaryingSteps,
-    testing::Combine(testing::Values(Swing{1e7, .487, {60, 60, 60, 240}, 0}, Swing{1e6, .495, {60, 60, 60, 240}, 0},
-                                     Swing{1e7, .495, {60, 60, 240}, 0}, Swing{1e8, .495, {60, 60, 60, 60, 60, 20}, 1}),
-                     testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Bars, TensionInVaryingSteps,
+                         testing::Combine(testing::Values(VaryingSwing{1e7, .487, {60, 60, 60, 240}, 0},
+                                                          VaryingSwing{1e6, .495, {60, 60, 60, 240}, 0},
+                                                          VaryingSwing{1e7, .495, {60, 60, 240}, 0},
+                                                          VaryingSwing{1e8, .495, {60, 60, 60, 60, 60, 20}, 1}),
+                                          testing::Bool()));
 
 INSTANTIATE_TEST_SUITE_P(Percent, ElasticityTension, testing::Values(10, 20, 50), testing::PrintToStringParamName());
 

@@ -54,22 +54,25 @@ void expectPatches(const TetMesh& mesh, const ElementPatches& patches)
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), mesh.tetCount());
 }
 
-TEST(MeshElementPatches, AreTheCubesOfBothSplits)
+// Of cubes and of cells eight times as long as thick.
+TEST(MeshElementPatches, AreTheCellsOfBothSplits)
 {
     for (const CellSplit split : {CellSplit::alternatingFive, CellSplit::kuhnSix})
-    {
-        const std::array<int, 3> cells = {5, 4, 3};
-        const TetMesh mesh = makeBox({5, 4, 3}, cells, {}, split);
-        const ElementPatches patches(mesh);
-        expectPatches(mesh, patches);
-        ASSERT_EQ(patches.count(), 5 * 4 * 3);
-        for (int e = 0; e < mesh.tetCount(); ++e)
+        for (const double length : {1., 8.})
         {
-            const Vec3 a = middleOfElement(mesh, e),
-                       b = middleOfElement(mesh, patches.m_element[patches.m_start[patches.m_patch[e]]]);
-            for (int c = 0; c < 3; ++c) EXPECT_EQ(std::floor(a[c]), std::floor(b[c]));
+            const std::array<int, 3> cells = {5, 4, 3};
+            const TetMesh mesh = makeBox({5 * length, 4 * length, 3}, cells, {}, split);
+            const ElementPatches patches(mesh);
+            expectPatches(mesh, patches);
+            ASSERT_EQ(patches.count(), 5 * 4 * 3);
+            const Vec3 cell = {length, length, 1};
+            for (int e = 0; e < mesh.tetCount(); ++e)
+            {
+                const Vec3 a = middleOfElement(mesh, e),
+                           b = middleOfElement(mesh, patches.m_element[patches.m_start[patches.m_patch[e]]]);
+                for (int c = 0; c < 3; ++c) EXPECT_EQ(std::floor(a[c] / cell[c]), std::floor(b[c] / cell[c]));
+            }
         }
-    }
 }
 
 // In the order of generation, and in any other.

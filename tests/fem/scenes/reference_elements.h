@@ -6,7 +6,6 @@
 #include "fem/elements/node_rotations.h"
 #include "fem/elements/node_sums.h"
 #include "fem/elements/orthotropic_elements.h"
-#include "fem/elements/smoothed_elements.h"
 
 namespace bullet_fem
 {
@@ -31,17 +30,6 @@ template <class Real>
 void runOrthotropicPass(const OrthotropicPass<Real>& pass, Range blocks);
 template <class Real>
 void runOrthotropicProduct(const OrthotropicProduct<Real>& product, Range blocks);
-
-template <class Real>
-void findStrains(const SmoothedPass<Real>& pass, Range pieces);
-template <class Real>
-void findStrains(const SmoothedProduct<Real>& product, Range pieces);
-template <class Real>
-void averageStrains(const EdgeSmoothing<Real>& smoothing, const SmoothedStrain<Real>& strain, Range domains);
-template <class Real>
-void findForces(const SmoothedPass<Real>& pass, Range blocks);
-template <class Real>
-void findForces(const SmoothedProduct<Real>& product, Range blocks);
 
 }  // namespace reference
 }  // namespace bullet_fem

@@ -165,10 +165,11 @@ class BatchOnTarget : public OnTarget
 
 TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
 {
-    for (const MeanDilatation choice : {MeanDilatation::off, MeanDilatation::on})
+    for (const int element : {0, 1, 2})
     {
         Material material = dampedMaterial();
-        material.m_meanDilatation = choice;
+        material.m_meanDilatation = element == 0 ? MeanDilatation::off : MeanDilatation::on;
+        material.m_accurateBending = element == 2;
         const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), material).m_model;
         Copies together(model, 40), alone(model, 40);
         expectSameSteps(together, alone, 5);

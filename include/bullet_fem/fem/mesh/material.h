@@ -71,8 +71,8 @@ struct BULLETFEM_API Material
     /// most 0.99.
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
-    /// Averages shear strains around edges, so that bending does not lock (EdgeDomains). Not available with mean
-    /// dilatation off, and for the law hooke alone.
+    /// Assumed strains of patches, so that bending does not lock (AssumedStrain). Not available with mean dilatation
+    /// off, and for the law hooke alone.
     bool m_accurateBending = false;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;

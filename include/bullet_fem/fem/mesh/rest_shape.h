@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/common/export.h"
-#include "bullet_fem/fem/mesh/edge_domains.h"
+#include "bullet_fem/fem/mesh/assumed_strain.h"
 #include "bullet_fem/fem/mesh/element_materials.h"
 #include "bullet_fem/fem/mesh/element_patches.h"
 #include "bullet_fem/fem/mesh/material.h"
@@ -58,8 +58,8 @@ struct BULLETFEM_API RestShape
     Material m_material;  ///< material of the first region; its damping coefficients hold for all regions
     /// Rest data of every element.
     std::vector<RestElement> m_elements;
-    ElementPatches m_patches;   ///< patches of mean dilatation; empty if every element has its own volume change
-    EdgeDomains m_edgeDomains;  ///< smoothing domains; empty without accurate bending
+    ElementPatches m_patches;       ///< patches of mean dilatation; empty if every element has its own volume change
+    AssumedStrain m_assumedStrain;  ///< of patches; empty without accurate bending
     /// C of every region, those of Hooke's law included; empty if no region is orthotropic.
     std::vector<ElasticMatrix> m_regionStiffness;
     std::vector<double> m_patchVolume;  ///< volume of each patch times the filled fractions [m3]
