@@ -8,11 +8,13 @@
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletCollision/CollisionShapes/btTriangleCallback.h"
+#include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 #include "bullet_bridge/geometry/shapes/rolling_curvature.h"
 #include "bullet_bridge/geometry/shapes/triangle_soup.h"
+#include "bullet_fem/bullet_bridge/vectors.h"
 #include "bullet_fem/fem/common/threads.h"
 
 namespace bullet_fem
@@ -166,7 +168,10 @@ Vec3 RigidSearch::advanceOf(const btCollisionObject& object, const ShapeLeaf& le
     if (!side.m_exists) return {};
     const double curvature = rollingCurvature(leaf, side.m_normal, proxy.m_angularVelocity);
     if (!(curvature > 0)) return {};
-    const Vec3 way = step * (proxy.m_linearVelocity - side.m_velocity);
+    // Without the forces of the step, which contacts bear: a ball at rest in a dimple goes nowhere.
+    const btRigidBody* body = movableBody(object);
+    const Vec3 velocity = body ? vec3(body->getLinearVelocity()) : proxy.m_linearVelocity;
+    const Vec3 way = step * (velocity - side.m_velocity);
     const Vec3 along = way - dot(way, side.m_normal) * side.m_normal;
     return curvature * norm(along) < 1 ? along : Vec3();
 }

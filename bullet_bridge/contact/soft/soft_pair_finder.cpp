@@ -117,8 +117,8 @@ void SoftPairFinder::dropSeams(const SoftPairSide& slider, const SoftPairSide& g
     };
     const auto isWall = [&](std::size_t k)
     { return plane.m_distance - dot(plane.m_normal, m_found[k].m_point) > kSunk * reach.m_edge; };
-    const Vec3 across = relative - dot(relative, plane.m_normal) * plane.m_normal;
-    if (!(step * norm(across) > slop)) return;
+    const double along = dot(relative, plane.m_normal), across = norm(relative - along * plane.m_normal);
+    if (!(step * across > slop) || across < std::fabs(along)) return;  // it does not slide
     for (std::size_t k = 0; k < m_found.size(); ++k)
         if (isBeside(k) && isWall(k)) return;
     std::size_t kept = 0;

@@ -290,9 +290,10 @@ double ContactRows::theta(int a, int b) const
     return a >= 0 || b >= 0 ? std::max(ofA, ofB) : 1;
 }
 
-// Difference between the arc of a point of a rigid proxy within the step and h times its velocity: h^2/2 w x (w x arm)
-// [m], with the spin before the solve. Sticking points follow the arc; without it a body on a turntable would drift
-// outward. Not used for fast rotation, where contact points change within the step.
+// Difference between the arc of a point of a kinematic rigid proxy within the step and h times its velocity: h^2/2 w x
+// (w x arm) [m]. Sticking points follow the arc; without it a body on a turntable would drift outward. Not used for
+// fast rotation, where contact points change within the step, nor for movable proxies, whose spin is unknown before the
+// solve.
 Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
     constexpr double kFarTurn = 0.5;  // maximum rotation within a step [rad]
@@ -300,7 +301,7 @@ Vec3 ContactRows::arcOf(const ContactRow& row) const
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
     const Vec3 turn = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
-    if (dot(turn, turn) > kFarTurn * kFarTurn) return {};
+    if (rigidProxy.canMove() || dot(turn, turn) > kFarTurn * kFarTurn) return {};
     return 0.5 * cross(turn, cross(turn, end.m_arm));
 }
 

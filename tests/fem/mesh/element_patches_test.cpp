@@ -54,7 +54,7 @@ void expectPatches(const TetMesh& mesh, const ElementPatches& patches)
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), mesh.tetCount());
 }
 
-// Of cubes and of cells eight times as long as thick.
+// Cubes, and cells eight times as long as thick.
 TEST(MeshElementPatches, AreTheCellsOfBothSplits)
 {
     for (const CellSplit split : {CellSplit::alternatingFive, CellSplit::kuhnSix})

@@ -98,8 +98,7 @@ class TorsionalFrictionTest : public testing::TestWithParam<Coupling>
 {
 };
 
-// A ball rolling along x decelerates by 5/7 mu_r g / r. Facets slow it further, on the soft slab as on Bullet's rigid
-// ground.
+// A ball rolling along x decelerates by 5/7 mu_r g / r; Bullet's on rigid ground a tenth sooner.
 TEST_P(TorsionalFrictionTest, RollingBallStopsAboutAsOnRigidGround)
 {
     constexpr double kSpeed = 1, kRolling = 0.05;  // [m/s], [m]
@@ -113,8 +112,9 @@ TEST_P(TorsionalFrictionTest, RollingBallStopsAboutAsOnRigidGround)
     const double way = kSpeed * kSpeed / (2 * 5.0 / 7 * kRolling * kGravity / kBallRadius);
     const double onSlab = ball->getWorldTransform().getOrigin().x() + 0.97;
     const double onGround = twin->getWorldTransform().getOrigin().x() + 0.97;
-    EXPECT_LT(onSlab, 1.02 * way);
-    EXPECT_NEAR(onSlab, onGround, 0.12 * onGround);
+    EXPECT_NEAR(onSlab, way, 0.05 * way);
+    EXPECT_GT(onSlab, 0.88 * onGround);
+    world.step(240);  // on a facet's edge it may creep for some seconds
     EXPECT_LT(ball->getLinearVelocity().length(), 1e-5);
     EXPECT_LT(ball->getAngularVelocity().length(), 1e-4);
 }
