@@ -27,7 +27,10 @@ public:
     /// `threads` share the searches and the corrective solves, which use `memory` if it is not null. Both must outlive
     /// the group.
     btFemContactGroup(const btFemSolverInfo& info, const bullet_fem::Threads& threads, bullet_fem::BatchMemory* memory)
-        : m_info(info), m_rigidSearch(threads), m_softPairs(threads), m_rebounds(info.m_elasticRebound)
+        : m_info(info),
+          m_rigidSearch(threads, info.m_contactDamping == 1),
+          m_softPairs(threads),
+          m_rebounds(info.m_elasticRebound)
     {
         m_settings.m_step.m_threads = &threads;
         m_settings.m_step.m_batchMemory = memory;

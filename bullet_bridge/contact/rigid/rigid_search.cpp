@@ -73,7 +73,10 @@ bool isOwnSheet(const btCollisionShape& shape)
 
 }  // namespace
 
-RigidSearch::RigidSearch(const Threads& threads) : m_threads(threads), m_finders(kParts), m_carrying(kOneFaceCosine) {}
+RigidSearch::RigidSearch(const Threads& threads, bool searchesAhead)
+    : m_threads(threads), m_searchesAhead(searchesAhead), m_finders(kParts), m_carrying(kOneFaceCosine)
+{
+}
 
 void RigidSearch::beginStep()
 {
@@ -251,7 +254,7 @@ const RigidSearch::ShapeRange& RigidSearch::shapeOf(const btCollisionObject& obj
             moveBack(m_leaves[l], proxy, proxy.m_center, step);
         range.m_alone = range.m_alone || !bearsThreads(*m_leaves[l].m_shape);
     }
-    if (range.m_count == 1)
+    if (m_searchesAhead && range.m_count == 1)
     {
         range.m_advance = advanceOf(object, m_leaves[range.m_first], proxy, step);
         moveOn(m_leaves[range.m_first], range.m_advance);

@@ -19,8 +19,9 @@ class Threads;
 class RigidSearch
 {
 public:
-    /// `threads` must live as long as the search.
-    explicit RigidSearch(const Threads& threads);
+    /// `threads` must live as long as the search. `searchesAhead`: contacts of rolling rigid bodies are searched where
+    /// these will be, for impulses that act at the end of the step, as with implicit Euler.
+    explicit RigidSearch(const Threads& threads, bool searchesAhead = true);
     RigidSearch(const RigidSearch&) = delete;
     RigidSearch& operator=(const RigidSearch&) = delete;
 
@@ -63,6 +64,7 @@ private:
     bool givesTriangles(const ShapeLeaf& leaf);
 
     const Threads& m_threads;
+    const bool m_searchesAhead;
     std::vector<ContactFinder> m_finders;
     std::vector<Overlap> m_overlapping;    // one per body
     std::vector<ContactObject> m_touched;  // body by body
