@@ -14,6 +14,8 @@ constexpr double kFlattest = 0.5;  // smallest curvature times size (cube root o
                                    // has 1.6
 constexpr double kSizePower = 4;   // between flat sides the patch moves with the smaller one; between equal ones at the
                                    // mean velocity
+constexpr double kMaxLag = 0.5;    // largest lag, in sizes of the smaller side [-]: some three quarters of a ball's radius.
+                                   // A ball that turns by more in a step would have its weight beside itself.
 constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
                                       // spin
 
@@ -68,7 +70,9 @@ Vec3 patchLag(const ContactPatchSide& a, const ContactPatchSide& b, const Vec3& 
     const double share = sum > 0 ? a.m_curvature / sum : 1 / (1 + std::pow(a.m_size / b.m_size, kSizePower));
     const Vec3 patch = share * velocityOfCentre(a, normal) + (1 - share) * velocityOfCentre(b, -normal);
     const Vec3 lag = h * (a.m_velocity - patch);
-    return lag - dot(lag, normal) * normal;
+    const Vec3 across = lag - dot(lag, normal) * normal;
+    const double most = kMaxLag * std::min(a.m_size, b.m_size), length = norm(across);
+    return length > most ? (most / length) * across : across;
 }
 
 double roundness(double curvature, double size)
