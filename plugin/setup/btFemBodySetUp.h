@@ -81,13 +81,6 @@ public:
     std::shared_ptr<const bullet_fem::BodyModel> exactModel(const btFemBodyRecord& record,
                                                             const std::shared_ptr<const bullet_fem::RestShape>& shape,
                                                             const bullet_fem::FactorInput& input);
-    /// exactModel() without factorization: null if no body has such a model.
-    std::shared_ptr<const bullet_fem::BodyModel> findExactModel(
-        const std::shared_ptr<const bullet_fem::RestShape>& shape, const bullet_fem::FactorInput& input) const
-    {
-        return m_library.findExact(shape, input);
-    }
-
     /// Restores a body's factor, and the one before it, which may be null.
     void giveFactors(btFemBodyRecord& record, const std::shared_ptr<const bullet_fem::BodyModel>& model,
                      const std::shared_ptr<const bullet_fem::BodyModel>& former);

@@ -105,7 +105,7 @@ struct Models
     std::shared_ptr<const BodyModel> m_model, m_former;
 };
 
-// Finds the factors of a snapshot. Factorizes the present one if there is none.
+// Finds the factors of a snapshot, or factorizes anew.
 Models modelsOf(const btFemRecordSnapshot& s, const btFemBodyRecord& record, btFemBodySetUp& setUp)
 {
     Models models;
@@ -116,7 +116,7 @@ Models modelsOf(const btFemRecordSnapshot& s, const btFemBodyRecord& record, btF
     models.m_model = setUp.exactModel(record, shape, factorInputOf(s.m_body));
     if (models.m_model->factorReport().m_path != s.m_body.m_path)
         reject("its factor was of the other kind: m_factorChoice or m_maxFactorMegabytes of the solver is another");
-    if (s.m_hasFormerFactor) models.m_former = setUp.findExactModel(shape, s.m_formerFactor);
+    if (s.m_hasFormerFactor) models.m_former = setUp.exactModel(record, shape, s.m_formerFactor);
     return models;
 }
 
