@@ -100,7 +100,12 @@ void FemSoftBody::sizeScratch()
     m_memory.m_impacts.clear();
     m_memory.m_impacts.reserve(kUsualImpacts);
     m_memory.m_place = NotedPlace(m_surface.topology().vertices());
-    m_ofMesh.m_height = m_skin ? std::vector<double>() : heightsOf(m_body.m_model->mesh());
+    m_ofMesh = {};
+    if (m_skin) return;
+    const TetMesh& mesh = m_body.m_model->mesh();
+    m_ofMesh.m_height = heightsOf(mesh);
+    for (int i = 0; i < mesh.nodeCount(); ++i)
+        if (m_surface.topology().trianglesAt(i).size() == 0 && !mesh.isLoose(i)) m_ofMesh.m_inner.push_back(i);
 }
 
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)

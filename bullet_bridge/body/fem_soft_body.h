@@ -193,6 +193,9 @@ struct FemSoftBody
         return m_ofMesh.m_height.empty() ? std::numeric_limits<double>::infinity() : m_ofMesh.m_height[triangle];
     }
 
+    /// Nodes of elements that are not on the surface, ascending; none with a skin.
+    const std::vector<int>& innerNodes() const { return m_ofMesh.m_inner; }
+
     /// Gravity that acts on the body [m/s2]; not checked.
     Vec3 gravity() const;
 
@@ -221,6 +224,7 @@ private:
     {
         std::shared_ptr<const ComplianceCache> m_servesInner;  // of all nodes, see serveInnerNodes; may be out of date
         std::vector<double> m_height;                          // see heightOn
+        std::vector<int> m_inner;                              // see innerNodes
     };
 
     void sizeScratch();

@@ -24,11 +24,7 @@ bool isPairOf(const ImpactScene& scene, const ContactPoint& c)
 // True if pins, joints or Bullet's constraints do not hold a side: the mobility of a held one is not that of its mass.
 bool isFree(const FemSoftBody& fem, int component)
 {
-    const std::vector<int>& componentOf = fem.m_body.m_model->mesh().nodeComponent();
-    if (!fem.m_joints.m_now.empty()) return false;
-    for (std::size_t i = 0; i < componentOf.size(); ++i)
-        if (componentOf[i] == component && fem.m_body.m_state.m_fixed[i]) return false;
-    return true;
+    return fem.m_joints.m_now.empty() && wholeMotion(fem.m_body, component).canMove();
 }
 
 bool isFree(const btCollisionObject& object)

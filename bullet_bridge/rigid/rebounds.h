@@ -21,11 +21,11 @@ bool mayRebound(const ContactProblem& problem);
 /// A rebound's impulse, as contact reports list it. A side that cannot move, by pins or a support, passes it on.
 struct GivenRebound
 {
-    FemSoftBody* m_body = nullptr;       ///< null: it cannot move
-    FemSoftBody* m_otherBody = nullptr;  ///< null: rigid, or it cannot move
-    const btCollisionObject* m_object;   ///< the body's
-    Impact m_impact;                     ///< before it was forgotten
-    Vec3 m_impulse;                      ///< on the body [N s]
+    FemSoftBody* m_body = nullptr;                ///< null: it cannot move
+    FemSoftBody* m_otherBody = nullptr;           ///< null: rigid, or it cannot move
+    const btCollisionObject* m_object = nullptr;  ///< the body's
+    Impact m_impact;                              ///< before it was forgotten
+    Vec3 m_impulse;                               ///< on the body [N s]
 };
 
 /// Restitution. The contact solve itself has none, and the step damps the elastic rebound of bodies. When contact no

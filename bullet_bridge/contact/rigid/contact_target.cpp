@@ -77,26 +77,24 @@ void SearchScope::findExposed()
 {
     m_exposed.clear();
     FemSoftBody& body = fem();
-    if (body.m_skin) return;
-    const TetMesh& mesh = body.m_body.m_model->mesh();
+    const std::vector<int>& inner = body.innerNodes();
+    if (inner.empty()) return;
     const std::vector<Vec3>& x = body.surfacePosition();
-    const bool isAny = static_cast<int>(surfaceVertices().size()) < mesh.nodeCount();
-    if (!isAny) return;
-    m_isInner.assign(x.size(), 0);
-    for (std::size_t e = 0; e < mesh.tets().size() && body.m_search.m_isInsideOut; ++e)
+    const TetMesh& mesh = body.m_body.m_model->mesh();
+    m_isInsideOut.clear();
+    if (body.m_search.m_isInsideOut) m_isInsideOut.assign(x.size(), 0);
+    for (const Tet& t : mesh.tets())
     {
-        const Tet& t = mesh.tets()[e];
+        if (!body.m_search.m_isInsideOut) break;
         if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
-            for (int node : t) m_isInner[node] = 1;
+            for (int node : t) m_isInsideOut[node] = 1;
     }
-    for (int i : surfaceVertices()) m_isInner[i] = 0;
     const Vec3 low = m_culling.low(), high = m_culling.high();
-    for (int i = 0; i < mesh.nodeCount(); ++i)
+    for (int i : inner)
     {
-        const bool isInner = body.m_surface.topology().trianglesAt(i).size() == 0 && !mesh.isLoose(i);
-        bool isOutside = m_isInner[i] != 0;
+        bool isOutside = !m_isInsideOut.empty() && m_isInsideOut[i] != 0;
         for (int c = 0; c < 3; ++c) isOutside = isOutside || x[i][c] < low[c] || x[i][c] > high[c];
-        if (isInner && isOutside) m_exposed.push_back(i);
+        if (isOutside) m_exposed.push_back(i);
     }
     if (m_exposed.empty()) return;
     body.serveInnerNodes();

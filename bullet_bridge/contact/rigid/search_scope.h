@@ -49,8 +49,8 @@ struct SearchScope
 private:
     const std::vector<int>& surfaceVertices() const { return m_fem->m_surface.topology().vertices(); }
 
-    std::vector<int> m_exposed;            // with the surface's vertices; empty if there are none
-    std::vector<unsigned char> m_isInner;  // per node: of an element that is inside out
+    std::vector<int> m_exposed;                // with the surface's vertices; empty if there are none
+    std::vector<unsigned char> m_isInsideOut;  // per node: of an element that is inside out; empty if none may be
 };
 
 }  // namespace bullet_fem
