@@ -13,7 +13,7 @@ import bulletfem as bf
 YOUNGS = (2e4, 1e5, 5e5)
 
 
-def build(young):
+def build(young=1e5):
     world = bf.World()
     world.add_rigid_body(bf.Shape.plane())
     mesh = bf.Mesh.box((0.2, 0.2, 0.2), (2, 2, 2), (0, 0.01, 0))

@@ -14,14 +14,7 @@ import numpy as np
 import pytest
 
 import bulletfem as bf
-
-
-def build(young=1e5):
-    world = bf.World()
-    world.add_rigid_body(bf.Shape.plane())
-    mesh = bf.Mesh.box((0.2, 0.2, 0.2), (2, 2, 2), (0, 0.01, 0))
-    world.add_soft_body(mesh, bf.Material(young_modulus=young, poisson_ratio=0.3, density=1000), name="cube")
-    return world
+from executors import build
 
 
 def continued(world):
