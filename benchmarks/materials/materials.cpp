@@ -149,7 +149,7 @@ Curve tipCurve(const char* name, int cells, MeanDilatation dilatation, bool isAc
     {
         Material material = elastic(kYoung, nu, 1e-3);
         material.m_meanDilatation = dilatation;
-        material.m_accurateBending = isAccurate;
+        material.m_bending = isAccurate ? Bending::accurate : Bending::plain;
         Bar bar(makeBox({kLength, 1, 1}, {10 * cells, cells, cells}, {}, CellSplit::kuhnSix), material, 1,
                 [](const Vec3& X) { return X.x < 1e-9; });
         const double before = bar.endPosition().z;
@@ -170,7 +170,7 @@ std::vector<Curve> measure()
             largeStrainCurve("Neo-Hookean", ElasticLaw::neoHooke),
             tipCurve("m_meanDilatation off", 4, MeanDilatation::off),
             tipCurve("m_meanDilatation on", 4, MeanDilatation::on),
-            tipCurve("m_accurateBending", 4, MeanDilatation::on, true)};
+            tipCurve("m_bending accurate", 4, MeanDilatation::on, true)};
 }
 
 nlohmann::json toJson(const std::vector<Curve>& curves)

@@ -62,7 +62,9 @@ Material materialOf(const Numbers& h)
         if (law >= allLaws().size()) reject("its law is ", law, ", not below ", allLaws().size(), kDamaged);
         material.m_law = static_cast<ElasticLaw>(law);
     }
-    material.m_accurateBending = (h.m_meanDilatation & kBakedAccurateBending) != 0;
+    material.m_bending = h.m_meanDilatation & kBakedAccurateBending    ? Bending::accurate
+                         : h.m_meanDilatation & kBakedAutomaticBending ? Bending::automatic
+                                                                       : Bending::plain;
     return yielding(material, h.m_plasticity);
 }
 

@@ -55,17 +55,21 @@ static_assert(sizeof(BakedHeader) == 256 && sizeof(BakedHeader) % kBakedAlignmen
 
 /// Flag in m_meanDilatation of a material with accurate bending.
 constexpr std::uint32_t kBakedAccurateBending = 8;
+/// Flag in m_meanDilatation of a material with Bending::automatic.
+constexpr std::uint32_t kBakedAutomaticBending = 32;
 /// Flag in m_meanDilatation of an orthotropic material.
 constexpr std::uint32_t kBakedOrthotropic = 16;
 /// Bits of m_meanDilatation with the number of a law beyond orthotropic.
 constexpr std::uint32_t kBakedLawBits = 0xff00, kBakedLawShift = 8;
-constexpr std::uint32_t kBakedFlags = kBakedNeoHooke | kBakedAccurateBending | kBakedOrthotropic | kBakedLawBits;
+constexpr std::uint32_t kBakedFlags =
+    kBakedNeoHooke | kBakedAccurateBending | kBakedAutomaticBending | kBakedOrthotropic | kBakedLawBits;
 
-/// Mean dilatation, accurate bending and law of a material in one number.
+/// Mean dilatation, bending and law of a material in one number.
 inline std::uint32_t averagingOf(const Material& material)
 {
     return static_cast<std::uint32_t>(material.m_meanDilatation) |
-           (material.m_accurateBending ? kBakedAccurateBending : 0) |
+           (material.m_bending == Bending::accurate ? kBakedAccurateBending : 0) |
+           (material.m_bending == Bending::automatic ? kBakedAutomaticBending : 0) |
            (material.m_law == ElasticLaw::neoHooke ? kBakedNeoHooke : 0) |
            (material.isOrthotropic() ? kBakedOrthotropic : 0) |
            (material.m_law > ElasticLaw::orthotropic ? static_cast<std::uint32_t>(material.m_law) << kBakedLawShift

@@ -136,7 +136,7 @@ std::uint64_t markOf(const ElementMaterials& materials)
     {
         addMaterial(mark, region.m_material);
         addToMark(mark, static_cast<int>(region.m_material.m_meanDilatation));
-        if (region.m_material.m_accurateBending) addToMark(mark, 1);
+        addToMark(mark, static_cast<int>(region.m_material.m_bending));
     }
     for (const int region : materials.m_regionOf) addToMark(mark, region);
     return mark;

@@ -75,15 +75,15 @@ double orthotropicMismatch(const Material& a, const Material& b, double h)
 }
 
 // Both matrices are sums over elements: their eigenvalues differ by at most the worst element's ratio.
-double mismatch(const RestShape& shape, const ElementMaterials& factored, double h)
+double mismatch(const RestShape& shape, const ElementMaterials& given, double h)
 {
+    const ElementMaterials own = shape.chosenMaterials(), factored = given.withBending(shape.m_isThin);
     const bool orthotropic = shape.isOrthotropic() || factored.isOrthotropic();
     const auto ofPair = [&](const Material& a, const Material& b)
     { return orthotropic ? orthotropicMismatch(a, b, h) : mismatch(a, b, h); };
-    if (shape.m_materials.isUniform() && factored.isUniform()) return ofPair(shape.m_material, factored.first());
+    if (shape.m_materials.isUniform() && factored.isUniform()) return ofPair(own.first(), factored.first());
     double most = 1;
-    for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
-        most = std::max(most, ofPair(shape.materialOf(e), factored.of(e)));
+    for (int e = 0; e < shape.m_mesh.tetCount(); ++e) most = std::max(most, ofPair(own.of(e), factored.of(e)));
     return most;
 }
 

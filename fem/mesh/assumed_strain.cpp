@@ -101,7 +101,7 @@ AssumedStrain::AssumedStrain(const TetMesh& mesh, const ElementMaterials& materi
         const int* elements = &patches.m_element[patches.m_start[p]];
         const int count = patches.size(p);
         PatchFilter filter = {Mat3::identity(), {1, 1, 1}, 1};
-        if (materials.of(elements[0]).m_accurateBending)
+        if (materials.of(elements[0]).m_bending == Bending::accurate)
         {
             filter = filterOf(mesh, elements, count, volume);
             const bool hasInner = std::any_of(elements, elements + count,

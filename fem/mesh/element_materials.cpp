@@ -168,7 +168,24 @@ bool ElementMaterials::isOrthotropic() const
 bool ElementMaterials::bendsAccurately() const
 {
     return std::any_of(m_regions.begin(), m_regions.end(),
-                       [](const MaterialRegion& region) { return region.m_material.m_accurateBending; });
+                       [](const MaterialRegion& region) { return region.m_material.m_bending == Bending::accurate; });
+}
+
+bool ElementMaterials::choosesBending() const
+{
+    return std::any_of(m_regions.begin(), m_regions.end(),
+                       [](const MaterialRegion& region) { return region.m_material.m_bending == Bending::automatic; });
+}
+
+ElementMaterials ElementMaterials::withBending(bool isThin) const
+{
+    ElementMaterials chosen = *this;
+    const bool bears = isThin && !isNonlinear() && !isOrthotropic();
+    for (auto& [label, material] : chosen.m_regions)
+        if (material.m_bending == Bending::automatic)
+            material.m_bending =
+                bears && material.m_meanDilatation != MeanDilatation::off ? Bending::accurate : Bending::plain;
+    return chosen;
 }
 
 bool ElementMaterials::yields() const

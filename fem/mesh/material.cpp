@@ -105,7 +105,14 @@ bool validLaw(const Material& material, std::string* why)
 // Returns false and the reason if accurate bending conflicts with other values.
 bool validBending(const Material& material, std::string* why)
 {
-    if (!material.m_accurateBending) return true;
+    if (material.m_bending < Bending::automatic || material.m_bending > Bending::accurate)
+    {
+        if (why)
+            *why = message("bending is ", static_cast<int>(material.m_bending),
+                           ", outside [0, 2]; choose automatic, plain or accurate");
+        return false;
+    }
+    if (material.m_bending != Bending::accurate) return true;
     const Law& law = lawOf(material.m_law);
     const std::string without = material.m_meanDilatation == MeanDilatation::off
                                     ? "mean dilatation off; take automatic or on"
@@ -140,7 +147,7 @@ bool Material::usesMeanDilatation() const
     if (law.m_noPatches) return false;
     if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
     if (law.m_kind != LawKind::linear) return false;
-    return m_accurateBending || static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
+    return m_bending == Bending::accurate || static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
 }
 
 int Material::relaxationTerms() const

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bullet_fem/fem/mesh/thin_mesh.h"
 #include "fem/common/message.h"
 
 namespace bullet_fem
@@ -73,14 +74,16 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
         element.m_muVolume = moduli[m_materials.regionOf(e)].m_mu * element.m_volume;
         for (int node : tet) m_lumpedMass[node] += density * massScale * element.m_volume / 4;
     }
-    if (!m_materials.usesMeanDilatation()) return;
-    m_patches = ElementPatches(m_mesh, m_materials.patchGroups());
+    m_isThin = m_materials.choosesBending() && isThinSomewhere(m_mesh);
+    const ElementMaterials chosen = chosenMaterials();
+    if (!chosen.usesMeanDilatation()) return;
+    m_patches = ElementPatches(m_mesh, chosen.patchGroups());
     m_patchVolume.assign(m_patches.count(), 0.0);
     for (int e = 0; e < m_mesh.tetCount(); ++e) m_patchVolume[m_patches.m_patch[e]] += m_elements[e].m_volume;
-    if (!m_materials.bendsAccurately()) return;
+    if (!chosen.bendsAccurately()) return;
     std::vector<double> volume;
     for (const RestElement& element : m_elements) volume.push_back(element.m_volume);
-    m_assumedStrain = AssumedStrain(m_mesh, m_materials, m_patches, volume);
+    m_assumedStrain = AssumedStrain(m_mesh, chosen, m_patches, volume);
 }
 
 double RestShape::shareOfPatch(int e) const

@@ -20,6 +20,14 @@ enum class btFemMeanDilatation
     off
 };
 
+/// Bending of bodies with few cells across, in which plain linear tetrahedra are too stiff.
+enum class btFemBending
+{
+    automatic,  ///< accurate in bodies with fewer than four cells across somewhere, else plain
+    plain,      ///< the strain of an element is its own, but for mean dilatation
+    accurate    ///< strains of an element that differ from its patch's mean count less
+};
+
 /// Constitutive law: hooke, neoHooke, orthotropic, ... (docs/materials.md, Laws and elements).
 using btFemElasticLaw = bullet_fem::ElasticLaw;
 
@@ -72,10 +80,10 @@ struct BULLETFEM_API btFemMaterial
     btFemRelaxation m_relaxation[kMaxRelaxationTerms];
     /// Constitutive law; E and nu are its small-strain constants. Only hooke can yield or relax.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
-    /// Accurate bending: strains of an element that differ from its patch's mean count less, against locking in
-    /// bending. Bars of two or more cells across have a bending error of at most 5 %; a step takes 1.3 to 1.7 times as
-    /// long. Not available with mean dilatation off, and for the law hooke alone (docs/materials.md).
-    bool m_accurateBending = false;
+    /// Remedy against locking in bending (docs/materials.md). With `accurate` bars of two or more cells across have a
+    /// bending error of at most 5 %, and a step takes 1.3 to 1.7 times as long. It is not available with mean
+    /// dilatation off, and for the law hooke alone; `automatic` is plain there, and beside regions of other laws.
+    btFemBending m_bending = btFemBending::plain;
     /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
     /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,
     /// pass a function of position to setMaterials.

@@ -35,6 +35,7 @@ btFemMaterial fromElastomer(const bullet_fem::Material& material)
 }  // namespace
 
 static_assert(static_cast<int>(btFemMeanDilatation::off) == static_cast<int>(bullet_fem::MeanDilatation::off));
+static_assert(static_cast<int>(btFemBending::accurate) == static_cast<int>(bullet_fem::Bending::accurate));
 
 static_assert(btFemMaterial::kMaxRelaxationTerms == bullet_fem::Material::kMaxRelaxationTerms);
 
@@ -50,7 +51,7 @@ bullet_fem::Material coreMaterial(const btFemMaterial& material)
     core.m_stiffnessDamping = material.m_stiffnessDamping;
     core.m_meanDilatation = static_cast<bullet_fem::MeanDilatation>(material.m_meanDilatation);
     core.m_law = material.m_law;
-    core.m_accurateBending = material.m_accurateBending;
+    core.m_bending = static_cast<bullet_fem::Bending>(material.m_bending);
     core.m_yieldStress = material.m_yieldStress;
     core.m_hardeningModulus = material.m_hardeningModulus;
     core.m_plasticCreep = material.m_plasticCreep;

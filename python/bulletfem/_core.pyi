@@ -27,7 +27,7 @@ class Material:
     hardening_modulus: float
     plastic_creep: float
     max_plastic_strain: float
-    accurate_bending: bool
+    bending: str
     mean_dilatation: str
     law: str
     law_constants: dict[str, float]
@@ -67,7 +67,7 @@ class Material:
         hardening_modulus: float = 0,
         plastic_creep: float = ...,
         max_plastic_strain: float = 0.5,
-        accurate_bending: bool = False,
+        bending: Literal["automatic", "plain", "accurate"] = "plain",
         mean_dilatation: Literal["automatic", "on", "off"] = "automatic",
         law: str = "hooke",
         law_constants: Mapping[str, float] = ...,

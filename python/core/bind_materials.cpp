@@ -164,7 +164,7 @@ void setLaw(Material& material, ElasticLaw law)
 template <class Class>
 void addChoices(Class& material)
 {
-    static const auto kDilatations = {"automatic", "on", "off"};
+    static const auto kDilatations = {"automatic", "on", "off"}, kBendings = {"automatic", "plain", "accurate"};
     material
         .def_property(
             "mean_dilatation",
@@ -178,8 +178,12 @@ void addChoices(Class& material)
             "Constitutive law: 'hooke', 'neo_hooke', 'orthotropic' or another of docs/materials.md.")
         .def_property("law_constants", &lawConstantsOf, &setLawConstants,
                       "Constants of laws with constants of their own by name, a dict; set the law before them.")
-        .def_readwrite("accurate_bending", &Material::m_accurateBending,
-                       "Averages shear strains around edges, so that few cells bend well.")
+        .def_property(
+            "bending", [](const Material& self) { return *(kBendings.begin() + int(self.m_bending)); },
+            [](Material& self, const std::string& text)
+            { self.m_bending = choiceOf<Bending>(text, "bending", kBendings); },
+            "Remedy against locking in bending: 'automatic' (in bodies with fewer than four cells across somewhere), "
+            "'plain' or 'accurate'.")
         .def_property("relaxation", &relaxationOf, &setRelaxation,
                       "Prony series of the shear modulus, float64 (k, 2), k <= 3: shares [-] and times [s].");
     addConstants(material, "young_moduli", &Orthotropic::m_young, "E_1, E_2, E_3 of law 'orthotropic' [Pa], (3,).");

@@ -125,7 +125,7 @@ protected:
         Material material;
         material.m_poissonRatio = nu;
         material.m_density = 1;
-        material.m_accurateBending = isAccurate;
+        material.m_bending = isAccurate ? Bending::accurate : Bending::plain;
         FactorInput input;
         input.m_step = 1;
         const auto shape = std::make_shared<const RestShape>(mesh, material);

@@ -110,14 +110,15 @@ def test_materials_have_values():
     material.density = 5
     assert material != bf.Material()
     assert bf.Material().stiffness_damping == 0.005
+    assert [bf.Material().bending, bf.Material(bending="automatic").bending] == ["plain", "automatic"]
     relaxing = bf.Material(relaxation=[[0.2, 1], [0.1, 10]])
     assert np.array_equal(relaxing.relaxation, [[0.2, 1], [0.1, 10]])
 
 
 @pytest.mark.parametrize(
     "values", [{"young_modulus": 0}, {"young_modulus": np.nan}, {"poisson_ratio": 0.5}, {"density": -1}, {"law": "hook"},
-               {"mean_dilatation": "yes"}, {"relaxation": [[0.5, 1]] * 4}, {"relaxation": [[2, 1]]}, {"relaxation": [1, 2]},
-               {"law": "neo_hooke", "yield_stress": 1e3}, {"along": (0, 0, 0)}, {"young_moduli": (1, 2)},
+               {"mean_dilatation": "yes"}, {"bending": "yes"}, {"relaxation": [[0.5, 1]] * 4}, {"relaxation": [[2, 1]]},
+               {"relaxation": [1, 2]}, {"law": "neo_hooke", "yield_stress": 1e3}, {"along": (0, 0, 0)}, {"young_moduli": (1, 2)},
                {"law": "orthotropic", "poisson_ratios": (2, 2, 2)}])
 def test_unusable_materials_are_refused(values):
     with pytest.raises(ValueError):

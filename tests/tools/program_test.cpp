@@ -233,11 +233,28 @@ TEST_F(Program, BakesWithTheGivenLaw)
         return figures("info " + path("law.bfem")).value("law", "hooke");
     };
     EXPECT_EQ(law(" --material flesh"), "neoHooke");
-    EXPECT_EQ(law(" --material flesh --law hooke --accurate-bending"), "hooke");
+    EXPECT_EQ(law(" --material flesh --law hooke --bending accurate"), "hooke");
     EXPECT_EQ(law(" --material foam"), "hooke");
     EXPECT_EQ(law(" --material foam --law neoHooke"), "neoHooke");
-    refused(bake + " --material flesh --accurate-bending", 1,
+    refused(bake + " --material flesh --bending accurate", 1,
             "accurate bending does not go with the Neo-Hookean law (as jelly and flesh have); take the law hooke");
+}
+
+TEST_F(Program, BakesWithTheGivenBending)
+{
+    const std::string bake = "bake " + path("two.node") + " -o " + path("bent.bfem");
+    const auto element = [&](const std::string& options)
+    {
+        figures(bake + options);
+        const json told = figures("info " + path("bent.bfem"));
+        return told.value("bending", "") + ", mean dilatation " + told.value("meanDilatation", "");
+    };
+    EXPECT_EQ(element(""), "plain, mean dilatation off");
+    EXPECT_EQ(element(" --bending plain"), "plain, mean dilatation off");
+    EXPECT_EQ(element(" --bending accurate"), "accurate, mean dilatation on");
+    EXPECT_EQ(element(" --bending auto"), "accurate, mean dilatation on");
+    EXPECT_EQ(element(" --bending auto --mean-dilatation off"), "plain, mean dilatation off");
+    EXPECT_EQ(element(" --bending auto --material flesh"), "plain, mean dilatation off");
 }
 
 TEST_F(Program, BakesRubberByItsHardness)

@@ -190,11 +190,12 @@ TEST_F(SceneReader, ReadsWhetherAMaterialBendsAccurately)
         return parse(R"({ "softBodies": [{ "name": "a", "mesh": { "box": [1, 1, 1] }, "material": {)" + member +
                      "} }] }")
             .m_softBodies[0]
-            .m_material.m_accurateBending;
+            .m_material.m_bending;
     };
-    EXPECT_FALSE(bends(""));
-    EXPECT_TRUE(bends(R"("accurateBending": true)"));
-    EXPECT_FALSE(bends(R"("accurateBending": false)"));
+    EXPECT_EQ(bends(""), Bending::plain);
+    EXPECT_EQ(bends(R"("bending": "auto")"), Bending::automatic);
+    EXPECT_EQ(bends(R"("bending": "plain")"), Bending::plain);
+    EXPECT_EQ(bends(R"("bending": "accurate")"), Bending::accurate);
 }
 
 TEST_F(SceneReader, ReadsHowAMaterialYields)

@@ -65,7 +65,7 @@ const BadValue kUnknown[] = {
      "threads"},
     {"InAMaterial", true, "/materials/gum/nu", "1",
      "materials.gum has a member 'nu', which is not known; those that are: like, shoreA, shoreD, young, poisson, "
-     "density, massDamping, stiffnessDamping, loss, meanDilatation, accurateBending, yieldStress, hardening, "
+     "density, massDamping, stiffnessDamping, loss, meanDilatation, bending, yieldStress, hardening, "
      "plasticCreep, mostPlasticStrain, relaxation, law, lawConstants, orthotropic"},
     {"InASoftBody", true, "/softBodies/1/mass", "1",
      "softBodies[1] has a member 'mass', which is not known; those that are: name, mesh, position, rotation, velocity, "

@@ -59,7 +59,7 @@ std::string fullScene()
   "solver": { "coupled": false, "tolerance": 1e-4, "contactTolerance": 1e-3, "threads": 2 },
   "materials": {
     "gum": { "like": "rubber", "young": 3e5, "poisson": 0.41, "density": 900, "massDamping": 0.2, "stiffnessDamping": 0.03, "meanDilatation": "on",
-      "accurateBending": false, "yieldStress": 5e4, "hardening": 1e4, "plasticCreep": 3, "mostPlasticStrain": 0.3, "relaxation": [{ "share": 0.2, "time": 0.5 }] },
+      "bending": "plain", "yieldStress": 5e4, "hardening": 1e4, "plasticCreep": 3, "mostPlasticStrain": 0.3, "relaxation": [{ "share": 0.2, "time": 0.5 }] },
     "tyre": { "shoreA": 65, "density": 1150 },
     "roller": { "shoreD": 55 },
     "timber": { "density": 450, "loss": { "factor": 0.02, "frequency": 40 }, "orthotropic": { "young": [1e7, 2e6, 1e6], "poisson": [0.37, 0.47, 0.43], "shear": [7e5, 6e5, 1e5],

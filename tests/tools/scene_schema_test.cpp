@@ -310,9 +310,9 @@ std::string written(const SceneDescription& scene)
         const Material& m = body.m_material;
         all.insert(all.end(),
                    {m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping,
-                    double(m.m_meanDilatation), double(m.m_accurateBending), body.m_mesh.m_cellSize,
-                    double(body.m_mesh.m_tets), double(body.m_mesh.m_mostLevels), body.m_mesh.m_scale, body.m_friction,
-                    body.m_restitution, double(body.m_selfContact), double(body.m_mesh.m_surfaceCollides)});
+                    double(m.m_meanDilatation), double(m.m_bending), body.m_mesh.m_cellSize, double(body.m_mesh.m_tets),
+                    double(body.m_mesh.m_mostLevels), body.m_mesh.m_scale, body.m_friction, body.m_restitution,
+                    double(body.m_selfContact), double(body.m_mesh.m_surfaceCollides)});
         for (const Vec3& x : {body.m_pose.m_position, body.m_pose.m_axis, body.m_velocity, body.m_colour}) add(x);
         all.insert(all.end(), {double(body.m_pieces.m_seed), body.m_pieces.m_strength.m_compliance});
         all.insert(all.end(), {body.m_fracture.m_mostCracks, int(body.m_fracture.m_partsTouch)});

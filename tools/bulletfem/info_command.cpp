@@ -69,15 +69,22 @@ struct InfoCommand
         if (info.m_regions == 1) m_figures.add("density", info.m_material.m_density, "kg/m3");
         m_figures.add("massDamping", info.m_material.m_massDamping, "1/s");
         m_figures.add("stiffnessDamping", info.m_material.m_stiffnessDamping, "s");
-        if (info.m_regions == 1) m_figures.add("meanDilatation", info.m_material.usesMeanDilatation() ? "on" : "off");
+        if (info.m_regions == 1) tellElement(info.m_material);
         if (info.m_regions == 1 && info.m_material.m_law != ElasticLaw::hooke && !info.m_material.isOrthotropic())
             tellLaw(info.m_material);
-        if (info.m_regions == 1 && info.m_material.m_accurateBending) m_figures.add("accurateBending", "on");
         if (info.m_regions == 1 && info.m_material.yields())
             m_figures.add("yieldStress", info.m_material.m_yieldStress, "Pa");
         m_figures.add("step", info.m_step, "s");
         m_figures.add("precision", info.m_singlePrecision ? "single" : "double");
         if (info.m_regions > 1) tellRegions(readBakedBody(m_file));
+    }
+
+    void tellElement(Material material)
+    {
+        if (material.m_bending == Bending::automatic)
+            material = readBakedBody(m_file).m_model->shape().chosenMaterials().first();
+        m_figures.add("meanDilatation", material.usesMeanDilatation() ? "on" : "off");
+        m_figures.add("bending", material.m_bending == Bending::accurate ? "accurate" : "plain");
     }
 
     void tellLaw(const Material& material)
@@ -112,13 +119,14 @@ struct InfoCommand
             m_figures.add("regions", shape.m_materials.m_regions.size());
             return;
         }
-        for (std::size_t r = 0; r < shape.m_materials.m_regions.size(); ++r)
+        const ElementMaterials materials = shape.chosenMaterials();
+        for (std::size_t r = 0; r < materials.m_regions.size(); ++r)
         {
-            const auto& [label, material] = shape.m_materials.m_regions[r];
+            const auto& [label, material] = materials.m_regions[r];
             int tets = 0;
             double volume = 0;
             for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
-                if (shape.m_materials.regionOf(e) == r)
+                if (materials.regionOf(e) == r)
                 {
                     ++tets;
                     volume += shape.m_elements[e].m_volume;

@@ -41,7 +41,7 @@ void takePreset(const Material& preset, Material& material)
     material.m_massDamping = body.m_massDamping;
     material.m_stiffnessDamping = body.m_stiffnessDamping;
     material.m_meanDilatation = body.m_meanDilatation;
-    material.m_accurateBending = body.m_accurateBending;
+    material.m_bending = body.m_bending;
 }
 
 // Parses a preset, or the name of a value and the value.
@@ -130,7 +130,12 @@ void MaterialOptions::add(CLI::App& command)
             "--mean-dilatation", m_meanDilatation,
             "auto, on or off: volume changes are averaged over neighbouring elements (default auto: above nu .4)")
         ->check(CLI::IsMember({"auto", "on", "off"}));
-    command.add_flag("--accurate-bending", m_accurateBending, "assumed strains, for accurate bending of thin parts");
+    command
+        .add_option(
+            "--bending", m_bending,
+            "plain, accurate (assumed strains, so that few cells bend as they should) or auto: accurate in bodies "
+            "with fewer than four cells across somewhere (default plain)")
+        ->check(CLI::IsMember({"plain", "accurate", "auto"}));
     command
         .add_option("--law", m_law,
                     "hooke, or neoHooke, which stiffens in tension and compression (default: the material's; that of "
@@ -164,7 +169,9 @@ Material MaterialOptions::material() const
     material.m_meanDilatation = m_meanDilatation == "on"    ? MeanDilatation::on
                                 : m_meanDilatation == "off" ? MeanDilatation::off
                                                             : MeanDilatation::automatic;
-    material.m_accurateBending = m_accurateBending;
+    material.m_bending = m_bending == "auto"       ? Bending::automatic
+                         : m_bending == "accurate" ? Bending::accurate
+                                                   : Bending::plain;
     material.m_law = law().value_or(material.m_law);
     return material;
 }

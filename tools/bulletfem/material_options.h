@@ -28,8 +28,7 @@ private:
 
     Material base() const;  // preset, or an elastomer of the given hardness
 
-    std::string m_preset, m_meanDilatation, m_law;
-    bool m_accurateBending = false;
+    std::string m_preset, m_meanDilatation, m_bending, m_law;
     std::vector<std::string> m_regions;
     std::optional<double> m_shoreA, m_shoreD, m_young, m_poisson, m_density, m_massDamping, m_stiffnessDamping;
     std::vector<double> m_loss;  // loss factor and frequency; empty if not given

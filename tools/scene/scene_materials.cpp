@@ -149,7 +149,7 @@ const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known
 Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
 {
     at.onlyMembers({"like", "shoreA", "shoreD", "young", "poisson", "density", "massDamping", "stiffnessDamping",
-                    "loss", "meanDilatation", "accurateBending", "yieldStress", "hardening", "plasticCreep",
+                    "loss", "meanDilatation", "bending", "yieldStress", "hardening", "plasticCreep",
                     "mostPlasticStrain", "relaxation", "law", "lawConstants", "orthotropic"});
     if (at.has("law") && at.has("orthotropic")) at.fail("has both 'law' and 'orthotropic', which is a law; give one");
     Material material = baseMaterial(at, known);
@@ -161,7 +161,8 @@ Material readMaterial(const JsonCursor& at, const SceneMaterials& known)
     readLoss(at, material);
     if (at.has("meanDilatation"))
         material.m_meanDilatation = static_cast<MeanDilatation>(at["meanDilatation"].choice({"auto", "on", "off"}));
-    at.read("accurateBending", material.m_accurateBending);
+    if (at.has("bending"))
+        material.m_bending = static_cast<Bending>(at["bending"].choice({"auto", "plain", "accurate"}));
     at.read("yieldStress", {0, 1e13, true}, material.m_yieldStress);
     at.read("hardening", {0, 1e13}, material.m_hardeningModulus);
     at.read("plasticCreep", {0, 1e9, true}, material.m_plasticCreep);

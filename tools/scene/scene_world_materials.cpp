@@ -17,7 +17,7 @@ btFemMaterial materialOf(const Material& material)
     result.m_stiffnessDamping = btScalar(material.m_stiffnessDamping);
     result.m_meanDilatation = static_cast<btFemMeanDilatation>(material.m_meanDilatation);
     result.m_law = material.m_law;
-    result.m_accurateBending = material.m_accurateBending;
+    result.m_bending = static_cast<btFemBending>(material.m_bending);
     result.m_yieldStress = btScalar(material.m_yieldStress);
     result.m_hardeningModulus = btScalar(material.m_hardeningModulus);
     result.m_plasticCreep = btScalar(material.m_plasticCreep);

@@ -145,20 +145,20 @@ TEST(Baking, KeepsWhetherElementsShareTheirVolumeChange)
     }
 }
 
-TEST(Baking, KeepsThatTheMaterialBendsAccurately)
+TEST(Baking, KeepsHowTheMaterialBends)
 {
     const TemporaryFolder folder;
-    for (const bool isAccurate : {true, false})
+    for (const Bending bending : {Bending::automatic, Bending::plain, Bending::accurate})
     {
         BakeSettings settings;
         settings.m_material.m_poissonRatio = 0.45;
-        settings.m_material.m_accurateBending = isAccurate;
+        settings.m_material.m_bending = bending;
         const BakedBody baked = bakeBody(makeBox({1, 1, 1}, {2, 2, 2}), settings);
         writeBakedBody(folder.path("body.bfem"), baked);
         const BakedBody read = readBakedBody(folder.path("body.bfem"));
-        EXPECT_EQ(read.m_model->shape().m_material.m_accurateBending, isAccurate);
+        EXPECT_EQ(read.m_model->shape().m_material.m_bending, bending);
         EXPECT_EQ(read.m_model->shape().m_material.m_meanDilatation, MeanDilatation::automatic);
-        EXPECT_EQ(read.m_model->shape().m_assumedStrain.empty(), !isAccurate);
+        EXPECT_EQ(read.m_model->shape().m_assumedStrain.empty(), bending == Bending::plain);
         EXPECT_EQ(coordinatesAfterFalling(read), coordinatesAfterFalling(baked));
     }
 }

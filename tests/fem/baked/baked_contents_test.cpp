@@ -129,7 +129,7 @@ TEST_F(BakedContents, HeaderFieldsAreValidated)
     EXPECT_THAT(with(&BakedHeader::m_step, kNaN), HasSubstr("step"));
     EXPECT_THAT(with(&BakedHeader::m_massScale, 0.0), HasSubstr("mass scale"));
     EXPECT_THAT(with(&BakedHeader::m_meanDilatation, 3u), HasSubstr("mean dilatation is 3"));
-    EXPECT_THAT(with(&BakedHeader::m_meanDilatation, 32u), HasSubstr("mean dilatation is 32"));
+    EXPECT_THAT(with(&BakedHeader::m_meanDilatation, 64u), HasSubstr("mean dilatation is 64"));
     std::array<char, 48> unending;
     unending.fill('x');
     EXPECT_THAT(with(&BakedHeader::m_backend, unending), HasSubstr("no meaning"));

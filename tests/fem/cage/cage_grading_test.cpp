@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bullet_fem/fem/cage/cage.h"
+#include "bullet_fem/fem/mesh/thin_mesh.h"
 #include "fem/cage/triangle_overlap.h"
 #include "fem/scenes/expect_rejected.h"
 #include "fem/scenes/test_surfaces.h"
@@ -222,6 +223,15 @@ TEST(GradedCage, MeasuresFilledFractions)
     EXPECT_NEAR(cage.m_massScale, 1, 0.01);
     EXPECT_LT(*std::min_element(cage.m_filled.begin(), cage.m_filled.end()), 0.1);
     EXPECT_EQ(*std::max_element(cage.m_filled.begin(), cage.m_filled.end()), 1);
+}
+
+// The rod is one cell across without grading, then two, then six.
+TEST(GradedCage, IsThinAtThinParts)
+{
+    EXPECT_FALSE(isThinSomewhere(makeCage(boxSurface({0, 0, 0}, {1, 1, 1}), withCell(0.2)).m_mesh));
+    EXPECT_TRUE(isThinSomewhere(makeCage(blockWithRod(), withCell(0.2)).m_mesh));
+    EXPECT_TRUE(isThinSomewhere(makeCage(blockWithRod(), graded(0.2, 2)).m_mesh));
+    EXPECT_FALSE(isThinSomewhere(makeCage(blockWithRod(), graded(0.1, 6)).m_mesh));
 }
 
 // For overlapping and for open surfaces the volume comes from samples.

@@ -29,7 +29,7 @@ constexpr double kBendYoung = 1e6;  // [Pa]
 Material accurate(double nu, double density = 1000)
 {
     Material material = elasticMaterial(kBendYoung, nu, density);
-    material.m_accurateBending = true;
+    material.m_bending = Bending::accurate;
     return material;
 }
 
@@ -386,7 +386,7 @@ TEST(ElasticityAccurateBending, KeepsMomentumAndTurnsFreely)
 double bendingIterations(double nu, bool isAccurate, double tolerance)
 {
     Material material = accurate(nu);
-    material.m_accurateBending = isAccurate;
+    material.m_bending = isAccurate ? Bending::accurate : Bending::plain;
     Body body = makeBody(makeBox({4, 1, 1}, {16, 4, 4}), material, isClampedEnd);
     setGravity(body, {0, 0, -9.81});
     StepSettings settings;
@@ -451,7 +451,7 @@ TEST(ElasticityAccurateBending, GoesOnFromASnapshotToTheBit)
     for (int k = 0; k < 10; ++k) step(body, StepSettings()), step(other, StepSettings());
     EXPECT_EQ(largestDistance(body.m_state.m_x, other.m_state.m_x), 0);
     Material plain = accurate(.45);
-    plain.m_accurateBending = false;
+    plain.m_bending = Bending::plain;
     EXPECT_NE(markOf(ElementMaterials(plain)), markOf(ElementMaterials(accurate(.45))));
 }
 

@@ -25,7 +25,7 @@ Material assumedYielding(double hardening = 0)
     Material material = elasticMaterial(kAssumedYoung, .3);
     material.m_yieldStress = kAssumedYield;
     material.m_hardeningModulus = hardening;
-    material.m_accurateBending = true;
+    material.m_bending = Bending::accurate;
     return material;
 }
 
@@ -119,7 +119,7 @@ TEST(AssumedPlasticity, ABarHardensAndUnloadsAsTheFormulaSays)
 TEST(AssumedPlasticity, ABarRelaxesAsTheFormulaSays)
 {
     Material material = elasticMaterial(kAssumedYoung, .3);
-    material.m_accurateBending = true;
+    material.m_bending = Bending::accurate;
     material.m_relaxation[0] = {.4, 1};
     AssumedBar bar(material);
     const double slow = bar.pull(1e3);  // ten relaxation times

@@ -278,7 +278,7 @@ TEST(NeoHooke, RejectsIncompatibleOptions)
     std::vector<Material> perElement(5, neoHookean(0.45));
     perElement[2] = elasticMaterial(kNeoHookeYoung, 0.45);
     EXPECT_NO_THROW(RestShape(mesh, ElementMaterials::ofElements(perElement)));
-    perElement[2].m_accurateBending = true;
+    perElement[2].m_bending = Bending::accurate;
     expectRejected([&] { RestShape(mesh, ElementMaterials::ofElements(perElement)); },
                    {"the Neo-Hookean law", "beside a region of accurate bending", "the law hooke"});
 }

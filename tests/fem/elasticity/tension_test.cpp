@@ -126,7 +126,7 @@ TEST_P(TensionInVaryingSteps, AddsNoEnergy)
     const auto& [swing, accurateBending] = GetParam();
     Material material = elasticMaterial(swing.m_young, swing.m_poisson);
     material.m_stiffnessDamping = 1.6e-5;
-    material.m_accurateBending = accurateBending;
+    material.m_bending = accurateBending ? Bending::accurate : Bending::plain;
     Body bar = makeBody(makeBox({.4, .2, .14}, {4, 2, 1}), material, [](const Vec3& X) { return dot(X, X) == 0; });
     setGravity(bar, {0, 0, -9.81});
     for (std::size_t i = 0; i < bar.m_state.m_x.size(); ++i)

@@ -143,7 +143,7 @@ protected:
     static Material soft()
     {
         Material material = elasticMaterial(1e4, .45);
-        material.m_accurateBending = true;
+        material.m_bending = Bending::accurate;
         return material;
     }
 

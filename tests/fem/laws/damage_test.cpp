@@ -140,7 +140,7 @@ TEST(Damage, NamesBadConstantsAndCombinations)
     material.m_meanDilatation = MeanDilatation::on;
     expectRejected([&] { material.validate(); }, {"mean dilatation is on with the damage law", "compressible"});
     material = brittle();
-    material.m_accurateBending = true;
+    material.m_bending = Bending::accurate;
     expectRejected([&] { material.validate(); }, {"accurate bending does not go with the damage law"});
 }
 

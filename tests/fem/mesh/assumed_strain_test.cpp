@@ -19,7 +19,7 @@ namespace
 Material bending(double young = 1e6)
 {
     Material material = elasticMaterial(young, .3);
-    material.m_accurateBending = true;
+    material.m_bending = Bending::accurate;
     return material;
 }
 

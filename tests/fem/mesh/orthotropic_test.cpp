@@ -169,7 +169,7 @@ TEST(Orthotropic, RejectsIncompatibleOptions)
         expectRejected([&] { bad.validate(); }, parts);
     };
     refused([](Material& m) { m.m_meanDilatation = MeanDilatation::on; }, {"mean dilatation is on", "orthotropic law"});
-    refused([](Material& m) { m.m_accurateBending = true; }, {"accurate bending", "orthotropic law"});
+    refused([](Material& m) { m.m_bending = Bending::accurate; }, {"accurate bending", "orthotropic law"});
     refused([](Material& m) { m.m_yieldStress = 1e5; }, {"yield stress [Pa] is 100000", "orthotropic law"});
     refused([](Material& m) { m.m_relaxation[0].m_share = .5; }, {"share is 0.5", "orthotropic law"});
 

@@ -181,7 +181,7 @@ TEST_P(ElementsSideBySide, HaveTheSameBitsAsAlone)
 {
     const Material plain = elasticMaterial(1e4, 0.3), inPatches = elasticMaterial(1e4, 0.49);
     Material assumed = elasticMaterial(1e4, 0.45);
-    assumed.m_accurateBending = true;
+    assumed.m_bending = Bending::accurate;
     for (const TetMesh& mesh : meshes())
         for (const Material& material : {plain, inPatches, assumed})
         {

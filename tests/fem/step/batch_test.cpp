@@ -169,7 +169,7 @@ TEST_P(BatchOnTarget, GivesEveryBodyItsOwnBits)
     {
         Material material = dampedMaterial();
         material.m_meanDilatation = element == 0 ? MeanDilatation::off : MeanDilatation::on;
-        material.m_accurateBending = element == 2;
+        material.m_bending = element == 2 ? Bending::accurate : Bending::plain;
         const auto model = makeBody(makeBox({1, 0.8, 0.7}, {3, 3, 2}), material).m_model;
         Copies together(model, 40), alone(model, 40);
         expectSameSteps(together, alone, 5);

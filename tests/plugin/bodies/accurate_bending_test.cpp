@@ -30,7 +30,7 @@ btFemMaterial bendingMaterial(btScalar young, btScalar nu, bool isAccurate = tru
     btFemMaterial material;
     material.m_youngModulus = young;
     material.m_poissonRatio = nu;
-    material.m_accurateBending = isAccurate;
+    material.m_bending = isAccurate ? btFemBending::accurate : btFemBending::plain;
     return material;
 }
 
@@ -241,10 +241,10 @@ TEST(AccurateBendingBodies, RejectIncompatibleOptions)
         EXPECT_THROW(scene.m_fem.setMaterial(body, material), std::invalid_argument);
     };
     btFemMaterial material = btFemMaterial::jelly();
-    material.m_accurateBending = true;
+    material.m_bending = btFemBending::accurate;
     expectRefused(material, "accurate bending does not go with the Neo-Hookean law");
     material = btFemMaterial::clay();
-    material.m_accurateBending = true;
+    material.m_bending = btFemBending::accurate;
     EXPECT_TRUE(material.valid());
     material = bendingMaterial(btScalar(1e6), btScalar(.3));
     material.m_meanDilatation = btFemMeanDilatation::off;

@@ -105,7 +105,7 @@ TEST(RejectedMaterial, NeoHookeanPresetsRefuseAccurateBendingWithTheRemedy)
     for (btFemMaterial material : {btFemMaterial::jelly(), btFemMaterial::flesh()})
     {
         EXPECT_EQ(material.m_law, btFemElasticLaw::neoHooke);
-        material.m_accurateBending = true;
+        material.m_bending = btFemBending::accurate;
         std::string why;
         EXPECT_FALSE(material.valid(&why));
         EXPECT_EQ(

@@ -58,7 +58,7 @@ protected:
         btFemMaterial material;
         material.m_youngModulus = btScalar(kYoung);
         material.m_poissonRatio = btScalar(kPoisson);
-        material.m_accurateBending = bendsAccurately;
+        material.m_bending = bendsAccurately ? btFemBending::accurate : btFemBending::plain;
         m_fem.setMaterial(block, material);
         clampBelow(*block, -0.999 * m_depthOfBlock);
         block->m_cfg.kDF = 0;

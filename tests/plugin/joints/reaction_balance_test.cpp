@@ -47,7 +47,7 @@ const BalanceCase kBalanceCases[] = {
     {"massDampingEuler", 1, softMaterial([](btFemMaterial& m) { m.m_massDamping = 2; })},
     {"stiffnessDamping", 0, softMaterial([](btFemMaterial& m) { m.m_stiffnessDamping = btScalar(0.05); })},
     {"nearlyIncompressible", 0, softMaterial([](btFemMaterial& m) { m.m_poissonRatio = btScalar(0.47); })},
-    {"accurateBending", 0, softMaterial([](btFemMaterial& m) { m.m_accurateBending = true; })},
+    {"accurateBending", 0, softMaterial([](btFemMaterial& m) { m.m_bending = btFemBending::accurate; })},
     {"neoHooke", 0, softMaterial([](btFemMaterial& m) { m.m_law = btFemElasticLaw::neoHooke; })},
     {"neoHookeEuler", 1,
      softMaterial(

@@ -76,7 +76,7 @@ template <class Bytes>
 void transfer(Bytes& bytes, Material& m)
 {
     bytes(m.m_youngModulus, m.m_poissonRatio, m.m_density, m.m_massDamping, m.m_stiffnessDamping, m.m_meanDilatation,
-          m.m_accurateBending, m.m_yieldStress, m.m_hardeningModulus, m.m_plasticCreep, m.m_mostPlasticStrain, m.m_law);
+          m.m_bending, m.m_yieldStress, m.m_hardeningModulus, m.m_plasticCreep, m.m_mostPlasticStrain, m.m_law);
     for (PronyTerm& term : m.m_relaxation) bytes(term.m_share, term.m_time);
     if (m.isOrthotropic()) bytes(m.m_orthotropic);
     bytes(m.m_lawConstants);

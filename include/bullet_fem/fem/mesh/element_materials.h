@@ -63,7 +63,7 @@ struct BULLETFEM_API ElementMaterials
     /// Patch groups for mean dilatation: only elements with equal numbers may share a patch. Regions of equal materials
     /// have equal numbers. One number per element; empty if all elements form one group. Allocates.
     std::vector<int> patchGroups() const;
-    /// True if any region uses mean dilatation.
+    /// True if any region uses mean dilatation; Bending::automatic counts as plain.
     bool usesMeanDilatation() const;
     /// True if any region's law is evaluated in every step; validate() refuses orthotropic regions and accurate bending
     /// beside it.
@@ -71,8 +71,13 @@ struct BULLETFEM_API ElementMaterials
     /// True if any region is orthotropic; validate() refuses mean dilatation and laws that vary in the
     /// other regions then.
     bool isOrthotropic() const;
-    /// True if any region has accurate bending.
+    /// True if any region has accurate bending; Bending::automatic counts as plain.
     bool bendsAccurately() const;
+    /// True if any region has Bending::automatic.
+    bool choosesBending() const;
+    /// These materials with Bending::automatic replaced: by accurate in a thin body whose laws are all hooke, unless
+    /// mean dilatation is off, else by plain. Allocates.
+    ElementMaterials withBending(bool isThin) const;
     /// True if any region has a yield stress.
     bool yields() const;
     /// Maximum number of relaxation terms over the regions.

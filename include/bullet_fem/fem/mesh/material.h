@@ -22,6 +22,14 @@ enum class MeanDilatation
     off
 };
 
+/// Bending of few cells (docs/materials.md): plain linear tetrahedra are too stiff in it.
+enum class Bending
+{
+    automatic,  ///< accurate in bodies with fewer than four cells across somewhere (isThinSomewhere), else plain
+    plain,      ///< the strain of an element is its own, but for mean dilatation
+    accurate    ///< assumed strains of patches (AssumedStrain)
+};
+
 /// A term g_i exp(-t / tau_i) of the Prony series of the shear modulus.
 struct PronyTerm
 {
@@ -71,9 +79,9 @@ struct BULLETFEM_API Material
     /// most 0.99.
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
-    /// Assumed strains of patches, so that bending does not lock (AssumedStrain). Not available with mean dilatation
-    /// off, and for the law hooke alone.
-    bool m_accurateBending = false;
+    /// Whether bending does not lock. `accurate` is not available with mean dilatation off, and for the law hooke
+    /// alone; `automatic` is plain there, and beside regions of other laws.
+    Bending m_bending = Bending::plain;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;
     /// The constants for ElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
@@ -91,8 +99,8 @@ struct BULLETFEM_API Material
     bool isOrthotropic() const { return m_law == ElasticLaw::orthotropic; }
     /// Stiffness matrix C in the axes of the rest shape, of Hooke's law or the orthotropic one.
     ElasticMatrix stiffness() const;
-    /// True if elements share their volume change. Compares nu in single precision, so that both precisions of Bullet
-    /// choose alike.
+    /// True if elements share their volume change; Bending::automatic counts as plain. Compares nu in single precision,
+    /// so that both precisions of Bullet choose alike.
     bool usesMeanDilatation() const;
     /// True if m_yieldStress is finite.
     bool yields() const { return m_yieldStress < kInfinite; }
@@ -123,7 +131,7 @@ struct BULLETFEM_API Material
         return a.m_law == b.m_law && a.m_youngModulus == b.m_youngModulus && a.m_poissonRatio == b.m_poissonRatio &&
                a.m_density == b.m_density && a.m_massDamping == b.m_massDamping &&
                a.m_stiffnessDamping == b.m_stiffnessDamping && a.m_meanDilatation == b.m_meanDilatation &&
-               a.m_accurateBending == b.m_accurateBending && a.m_yieldStress == b.m_yieldStress &&
+               a.m_bending == b.m_bending && a.m_yieldStress == b.m_yieldStress &&
                a.m_hardeningModulus == b.m_hardeningModulus && a.m_plasticCreep == b.m_plasticCreep &&
                a.m_mostPlasticStrain == b.m_mostPlasticStrain && a.m_relaxation == b.m_relaxation &&
                a.m_lawConstants == b.m_lawConstants && (!a.isOrthotropic() || a.m_orthotropic == b.m_orthotropic);

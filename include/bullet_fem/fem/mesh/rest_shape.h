@@ -43,6 +43,9 @@ struct BULLETFEM_API RestShape
     /// V_e over the volume of its patch, both times the filled fractions [-]; 1 without patches.
     double shareOfPatch(int e) const;
 
+    /// The materials with the bending that the elements have: never Bending::automatic. Allocates.
+    ElementMaterials chosenMaterials() const { return m_materials.withBending(m_isThin); }
+
     /// Material of element e.
     const Material& materialOf(int e) const { return m_materials.of(e); }
 
@@ -55,7 +58,8 @@ struct BULLETFEM_API RestShape
     TetMesh m_mesh;
     /// The materials of its elements.
     ElementMaterials m_materials;
-    Material m_material;  ///< material of the first region; its damping coefficients hold for all regions
+    bool m_isThin = false;  ///< isThinSomewhere(m_mesh), if a material has Bending::automatic
+    Material m_material;    ///< material of the first region; its damping coefficients hold for all regions
     /// Rest data of every element.
     std::vector<RestElement> m_elements;
     ElementPatches m_patches;       ///< patches of mean dilatation; empty if every element has its own volume change
