@@ -12,15 +12,15 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kRadius = 0.1;                                         // [m]
-constexpr double kFrame = 1.0 / 60;                                     // [s]
-const Vec3 kUp = {0, 0, 1};                                             // normal, from the ground to the ball
-const double kBallSize = kRadius * std::cbrt(4 * std::acos(-1.0) / 3);  // cube root of the volume [m]
+constexpr double kRolledRadius = 0.1;                                         // [m]
+constexpr double kRolledStep = 1.0 / 60;                                      // [s]
+const Vec3 kFromGround = {0, 0, 1};                                           // normal, from the ground to the ball
+const double kBallSize = kRolledRadius * std::cbrt(4 * std::acos(-1.0) / 3);  // cube root of the volume [m]
 
 // A ball that spins about y; the velocity of its centre is along x.
 ContactPatchSide ball(double spin, double velocity)
 {
-    return {{velocity - spin * kRadius, 0, 0}, {0, spin, 0}, 1 / kRadius, kBallSize, std::nullopt};
+    return {{velocity - spin * kRolledRadius, 0, 0}, {0, spin, 0}, 1 / kRolledRadius, kBallSize, std::nullopt};
 }
 
 ContactPatchSide ground()
@@ -31,21 +31,21 @@ ContactPatchSide ground()
 TEST(ContactPatch, OfARollingBallLagsByItsWay)
 {
     const double spin = 5;
-    const Vec3 lag = patchLag(ball(spin, spin * kRadius), ground(), kUp, kFrame);
-    EXPECT_NEAR(lag.x, -spin * kRadius * kFrame, 1e-12);
+    const Vec3 lag = patchLag(ball(spin, spin * kRolledRadius), ground(), kFromGround, kRolledStep);
+    EXPECT_NEAR(lag.x, -spin * kRolledRadius * kRolledStep, 1e-12);
     EXPECT_EQ(lag.z, 0);
 }
 
 // A lever of several radii, as three radians in a step give, let corrective solves diverge.
 TEST(ContactPatch, LagsByHalfTheSizeAtMost)
 {
+    constexpr double kLongStep = 0.05;  // [s]
     for (const double spin : {70., -700.})
-        for (const double velocity : {0., 6.})
-        {
-            const double step = 0.05;
-            EXPECT_NEAR(norm(patchLag(ball(spin, velocity), ground(), kUp, step)), 0.5 * kBallSize, 1e-12);
-            EXPECT_NEAR(norm(patchLag(ground(), ball(spin, velocity), -kUp, step)), 0.5 * kBallSize, 1e-12);
-        }
+    {
+        const ContactPatchSide spinning = ball(spin, 6);
+        EXPECT_NEAR(norm(patchLag(spinning, ground(), kFromGround, kLongStep)), 0.5 * kBallSize, 1e-12);
+        EXPECT_NEAR(norm(patchLag(ground(), spinning, -kFromGround, kLongStep)), 0.5 * kBallSize, 1e-12);
+    }
 }
 
 }  // namespace
