@@ -286,8 +286,8 @@ TEST(ElasticCable, MayLieBesideItsLike)
     }
 }
 
-// Cables along one line through points of different nodes have equal forces to single precision: rounding decides how
-// many iterations that takes, 80 with vectors of 16 floats, 170 with vectors of 8.
+// Cables along one line through points of different nodes have equal forces to single precision. Four of 1e8 N/m and
+// more may explode on this beam of 0.1 MPa, as rounding decides.
 TEST(ElasticCable, MayLieNearItsLike)
 {
     Body body = beamWithCable(1e5, 4, 1.0 / 60);
@@ -299,7 +299,7 @@ TEST(ElasticCable, MayLieNearItsLike)
     cables[3].m_points = {line.front(), line.back()};
     for (Cable& cable : cables)
     {
-        cable.m_stiffness = 1e12;
+        cable.m_stiffness = 1e6;
         cable.m_restLength = 0.19;
     }
     body.m_actuators.m_cables = cables;
@@ -307,7 +307,7 @@ TEST(ElasticCable, MayLieNearItsLike)
     {
         const SolveReport report = step(body, StepSettings());
         EXPECT_EQ(report.m_stop, SolveStop::converged) << k;
-        EXPECT_LE(report.m_iterations, 250) << k;
+        EXPECT_LE(report.m_iterations, 80) << k;
     }
     EXPECT_NEAR(cables[0].length(body.m_state.m_x), 0.19, 1e-5);
     EXPECT_LE(kineticEnergy(body.m_state), 1e-5);
