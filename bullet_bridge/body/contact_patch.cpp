@@ -14,8 +14,8 @@ constexpr double kFlattest = 0.5;  // smallest curvature times size (cube root o
                                    // has 1.6
 constexpr double kSizePower = 4;   // between flat sides the patch moves with the smaller one; between equal ones at the
                                    // mean velocity
-constexpr double kMaxLag = 0.5;    // largest lag, in sizes of the smaller side [-]: some three quarters of a ball's radius.
-                                   // A ball that turns by more in a step would have its weight beside itself.
+constexpr double kMaxLag = 0.5;    // largest lag, in sizes of the smaller side [-]: some three quarters of a ball's
+                                   // radius. A ball that turns by more in a step would have its weight beside itself.
 constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
                                       // spin
 

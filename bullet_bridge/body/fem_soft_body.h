@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -83,7 +84,7 @@ struct Impact
     int m_otherComponent = -1;   ///< connected component of a soft other body; -1: rigid
     double m_restitution = 0;    ///< [-], in [0, 1]
     double m_push = 0;           ///< normal impulse of the step that m_restitution was found in [N s]
-    double m_approach = 0;       ///< approach speed at the first contact [m/s]
+    Vec3 m_velocity;             ///< of the body relative to the other at the first contact, before it [m/s]
     double m_energy = 0;         ///< energy of both at the first contact [J]
     double m_loss = 0;           ///< kinetic energy that the normal impulses have taken from the rigid motions [J]
     double m_speed = 0;          ///< separation speed at the end of the last step [m/s]
@@ -99,6 +100,9 @@ struct Impact
     bool m_isPressed = false;    ///< some of these have an impulse
     double m_impulse = 0;        ///< if pressed, the normal impulse of this step [N s]
     double m_speedBefore = 0;    ///< if pressed, the separation speed before this step [m/s]
+
+    /// Approach speed before the impact along the present normal [m/s], >= 0.
+    double approach() const { return std::max(0.0, -dot(m_velocity, m_normal)); }
 
     /// True if the two are between equal bodies and connected components.
     bool isOf(const Impact& b) const

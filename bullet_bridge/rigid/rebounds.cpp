@@ -30,6 +30,9 @@ constexpr double kPatience = 2;
 // The restitution by elasticity is found anew when the patch is pressed harder by this factor [-].
 constexpr double kHarder = 1.2;
 
+// Share of a set restitution that counts as all of it [-].
+constexpr double kWhole = 0.99;
+
 // Smallest cosine between the normal and the line of two centres that counts as central: 30 degrees [-].
 constexpr double kCentral = 0.87;
 
@@ -159,10 +162,10 @@ bool Rebounds::meet(const ImpactScene& scene, const ImpactPatch& patch, double l
     impact.m_otherIsHeld = secondSupport != nullptr;
     if (firstSupport) sides.m_first = *firstSupport;
     if (secondSupport) sides.m_second = *secondSupport;
-    impact.m_approach = sides.approachAt(impact);
-    if (!(impact.m_approach > slowest)) return false;
+    impact.m_velocity = sides.m_first.velocityAt(impact.m_point) - sides.m_second.velocityAt(impact.m_point);
+    if (!(impact.approach() > slowest)) return false;
     impact.m_restitution = patch.m_restitution;
-    impact.m_speed = impact.m_speedBefore = -impact.m_approach;
+    impact.m_speed = impact.m_speedBefore = -impact.approach();
     if (!sides.m_first.canMove()) impact.m_frame = sides.m_first.velocityAt(impact.m_point);
     if (!sides.m_second.canMove()) impact.m_frame = sides.m_second.velocityAt(impact.m_point);
     const MovingFrame frame = {impact.m_frame, 0};
@@ -299,13 +302,14 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
         turnNormal(impact, step);
     }
     const bool isDriven = impact.m_isPressed && !(gain < kSpent * impact.m_gain);
-    if (isDriven || !(speed > -kStopped * impact.m_approach)) return !impact.m_isNear;
+    if (isDriven || !(speed > -kStopped * impact.approach())) return !impact.m_isNear;
     if (impact.m_stopTime == 0) impact.m_stopTime = impact.m_time;
-    return part(fem, impact, other, rigid, step) || !impact.m_isPressed ||
-           !(impact.m_time < kPatience * impact.m_stopTime);
+    const bool mayWait = impact.m_isPressed || !(impact.m_push > 0);
+    return part(fem, impact, other, rigid, step) || !mayWait || !(impact.m_time < kPatience * impact.m_stopTime);
 }
 
-// Applies the rebound impulse. True if it was applied or none is due; false if no energy is available yet.
+// Applies the rebound impulse. True if it was applied or none is due; false if energy is missing, which vibrations
+// still hold. A set restitution is completed when they have returned it or lost it.
 bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step)
 {
     Rebound rebound;
@@ -313,7 +317,7 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     rebound.m_second = kOther;
     rebound.m_point = impact.m_point;
     rebound.m_normal = impact.m_normal;
-    rebound.m_speed = impact.m_restitution * impact.m_approach;
+    rebound.m_speed = impact.m_restitution * impact.approach();
     if (!(impact.m_restitution > 0) || !(rebound.m_speed > impact.m_speed)) return true;
     const MovingFrame frame = {impact.m_frame, impact.m_time};
     // Vibrations of bodies that no longer press each other do not become rigid motion; the restitution by elasticity
@@ -345,7 +349,10 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     if (other.m_soft) move(*other.m_soft, impact.m_otherComponent, kOther);
     m_given.push_back({before[kBody].canMove() ? &fem : nullptr, before[kOther].canMove() ? other.m_soft : nullptr,
                        fem.m_softBody, impact, impulse});
-    if (other.m_soft || !before[kOther].canMove()) return true;
+    const double parting = dot(impact.m_normal, m_problem.m_rigidProxies[kBody].velocityAt(impact.m_point) -
+                                                    m_problem.m_rigidProxies[kOther].velocityAt(impact.m_point));
+    const bool isWhole = isElastic || !(parting < kWhole * rebound.m_speed);
+    if (other.m_soft || !before[kOther].canMove()) return isWhole;
     rigid.rigidProxies().front().m_linearVelocity += linear(kOther);
     rigid.rigidProxies().front().m_angularVelocity += angular(kOther);
     ContactPoint reaction;
@@ -355,7 +362,7 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     reaction.m_impulse = impulse;
     m_problem.m_contacts.push_back(reaction);
     rigid.applyReactions(m_problem, step, false);
-    return true;
+    return isWhole;
 }
 
 bool mayRebound(const ContactProblem& problem)

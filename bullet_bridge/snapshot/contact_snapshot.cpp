@@ -98,7 +98,7 @@ void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* oth
         checkComponent(i.m_otherComponent, 0, *other);
     else if (i.m_otherComponent < -1)
         reject("the other component of an impact is ", i.m_otherComponent, ", below -1");
-    checkSane("an impact", i.m_push, i.m_approach, i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point, i.m_normal,
+    checkSane("an impact", i.m_push, i.m_velocity, i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point, i.m_normal,
               i.m_frame, i.m_time, i.m_stopTime);
     if (!(i.m_restitution >= 0 && i.m_restitution <= 1))
         reject("the restitution of an impact is ", i.m_restitution, ", not in [0, 1]");

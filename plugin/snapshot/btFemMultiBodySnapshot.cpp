@@ -25,11 +25,15 @@ btQuaternion quaternionOf(const std::array<btScalar, 4>& q)
     return {q[0], q[1], q[2], q[3]};
 }
 
+// Bullet leaves interpolated positions undefined until the first step that a joint takes.
 btFemLinkSnapshot snapshotOf(const btMultibodyLink& link)
 {
     btFemLinkSnapshot s;
     std::copy_n(link.m_jointPos, 7, s.m_position.begin());
-    std::copy_n(link.m_jointPos_interpolate, 7, s.m_interpolatedPosition.begin());
+    s.m_interpolatedPosition = s.m_position;
+    for (int k = 0; k < link.m_posVarCount; ++k)
+        if (btFemFinite::are(link.m_jointPos_interpolate[k]))
+            s.m_interpolatedPosition[k] = link.m_jointPos_interpolate[k];
     std::copy_n(link.m_jointTorque, 6, s.m_jointForce.begin());
     s.m_force = link.m_appliedForce;
     s.m_torque = link.m_appliedTorque;

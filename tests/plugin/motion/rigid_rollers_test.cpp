@@ -73,11 +73,11 @@ class RigidRollers : public testing::TestWithParam<std::tuple<Roller, Coupling>>
 
 // Its load must act below the centre, where it is at the end of the step: v h behind, a cylinder would lose 2/3 g v h /
 // R [m/s2], which leaves .93 m/s after a second. Steps of 1/1920 s leave 1.45. The facets of a hull turn within the
-// step.
+// step, and rounding decides which of them meet: it keeps .79 to .81.
 TEST_P(RigidRollers, CoastOnASoftSlab)
 {
     const auto [roller, coupling] = GetParam();
-    const double kept = roller == Roller::hull ? 0.8 : 0.86;
+    const double kept = roller == Roller::hull ? 0.78 : 0.86;
     FemWorld world(WorldClass::softRigid, coupling);
     world.addFloorBox();
     SoftBox box;

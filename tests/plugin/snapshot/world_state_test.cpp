@@ -215,6 +215,19 @@ TEST(WorldStateOfLinks, KeepsTheSleepTimer)
     EXPECT_FALSE(other.m_bodies[2]->isAwake());
 }
 
+// Bullet sets only the interpolated positions that a joint has.
+TEST(WorldStateOfLinks, LeavesUndefinedPositionsOfLinksOut)
+{
+    LinkScene scene;
+    scene.m_world.step();
+    for (btMultiBody* body : scene.m_bodies)
+        for (int k = 0; k < body->getNumLinks(); ++k)
+            body->getLink(k).m_jointPos_interpolate[6] = std::numeric_limits<btScalar>::quiet_NaN();
+    Bytes bytes;
+    btFemWorldState::save(scene.m_world.world(), scene.m_fem, bytes);
+    EXPECT_NO_THROW(btFemWorldState::restore(scene.m_world.world(), scene.m_fem, bytes.data(), bytes.size()));
+}
+
 class WorldStateRefusal : public testing::Test
 {
 protected:
