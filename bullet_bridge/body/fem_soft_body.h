@@ -101,9 +101,6 @@ struct Impact
     double m_impulse = 0;        ///< if pressed, the normal impulse of this step [N s]
     double m_speedBefore = 0;    ///< if pressed, the separation speed before this step [m/s]
 
-    /// Approach speed before the impact along the present normal [m/s], >= 0.
-    double approach() const { return std::max(0.0, -dot(m_velocity, m_normal)); }
-
     /// True if the two are between equal bodies and connected components.
     bool isOf(const Impact& b) const
     {
@@ -111,6 +108,12 @@ struct Impact
                m_otherComponent == b.m_otherComponent;
     }
 };
+
+/// Approach speed before the impact along its present normal [m/s], >= 0.
+inline double approachOf(const Impact& impact)
+{
+    return std::max(0.0, -dot(impact.m_velocity, impact.m_normal));
+}
 
 /// Contact from step to step, as the last step left it.
 struct ContactMemory

@@ -161,7 +161,7 @@ double ImpactPatches::elasticRestitutionOf(const ImpactScene& scene, const Impac
         const btRigidBody* rigid = movableBody(*impact.m_other);
         if (rigid) acceleration += dot(n, vec3(rigid->getGravity()));
     }
-    return elasticRestitution(response, impact.approach(), acceleration);
+    return elasticRestitution(response, approachOf(impact), acceleration);
 }
 
 }  // namespace bullet_fem

@@ -163,9 +163,9 @@ bool Rebounds::meet(const ImpactScene& scene, const ImpactPatch& patch, double l
     if (firstSupport) sides.m_first = *firstSupport;
     if (secondSupport) sides.m_second = *secondSupport;
     impact.m_velocity = sides.m_first.velocityAt(impact.m_point) - sides.m_second.velocityAt(impact.m_point);
-    if (!(impact.approach() > slowest)) return false;
+    if (!(approachOf(impact) > slowest)) return false;
     impact.m_restitution = patch.m_restitution;
-    impact.m_speed = impact.m_speedBefore = -impact.approach();
+    impact.m_speed = impact.m_speedBefore = -approachOf(impact);
     if (!sides.m_first.canMove()) impact.m_frame = sides.m_first.velocityAt(impact.m_point);
     if (!sides.m_second.canMove()) impact.m_frame = sides.m_second.velocityAt(impact.m_point);
     const MovingFrame frame = {impact.m_frame, 0};
@@ -302,7 +302,7 @@ bool Rebounds::follow(FemSoftBody& fem, Impact& impact, const Other& other, Rigi
         turnNormal(impact, step);
     }
     const bool isDriven = impact.m_isPressed && !(gain < kSpent * impact.m_gain);
-    if (isDriven || !(speed > -kStopped * impact.approach())) return !impact.m_isNear;
+    if (isDriven || !(speed > -kStopped * approachOf(impact))) return !impact.m_isNear;
     if (impact.m_stopTime == 0) impact.m_stopTime = impact.m_time;
     const bool mayWait = impact.m_isPressed || !(impact.m_push > 0);
     return part(fem, impact, other, rigid, step) || !mayWait || !(impact.m_time < kPatience * impact.m_stopTime);
@@ -317,7 +317,7 @@ bool Rebounds::part(FemSoftBody& fem, const Impact& impact, const Other& other, 
     rebound.m_second = kOther;
     rebound.m_point = impact.m_point;
     rebound.m_normal = impact.m_normal;
-    rebound.m_speed = impact.m_restitution * impact.approach();
+    rebound.m_speed = impact.m_restitution * approachOf(impact);
     if (!(impact.m_restitution > 0) || !(rebound.m_speed > impact.m_speed)) return true;
     const MovingFrame frame = {impact.m_frame, impact.m_time};
     // Vibrations of bodies that no longer press each other do not become rigid motion; the restitution by elasticity
