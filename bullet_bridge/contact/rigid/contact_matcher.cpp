@@ -11,6 +11,15 @@ namespace
 
 constexpr double kMinLikeness = -2;  // smallest similarity of a contact to one of the last step; 1: equal
 
+// True if a contact pushes more than another, or as much and is deeper: of a vertex that only touches, edges beside it
+// may bear the load. `other` may be null.
+bool holdsMore(const ContactPoint& contact, const ContactPoint* other)
+{
+    if (other == nullptr) return true;
+    const double push = dot(contact.m_impulse, contact.m_normal), otherPush = dot(other->m_impulse, other->m_normal);
+    return push > otherPush || (push == otherPush && contact.m_gap < other->m_gap);
+}
+
 }  // namespace
 
 void ContactMatcher::begin(const FemSoftBody& fem)
@@ -18,14 +27,14 @@ void ContactMatcher::begin(const FemSoftBody& fem)
     const int vertexCount = fem.m_surface.topology().vertexCount();
     const ContactMemory& memory = fem.m_memory;
     m_heldNormal.assign(vertexCount, Vec3());
-    m_heldBy.assign(vertexCount, 0);
+    m_heldBy.assign(vertexCount, nullptr);
     for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
     {
         const int vertex = memory.m_origins[k].m_feature;
-        const double impulse = dot(memory.m_contacts[k].m_impulse, memory.m_contacts[k].m_normal);
-        if (vertex >= vertexCount || impulse <= m_heldBy[vertex]) continue;
-        m_heldBy[vertex] = impulse;
-        m_heldNormal[vertex] = memory.m_contacts[k].m_normal;
+        const ContactPoint& contact = memory.m_contacts[k];
+        if (vertex >= vertexCount || !holdsMore(contact, m_heldBy[vertex])) continue;
+        m_heldBy[vertex] = &contact;
+        m_heldNormal[vertex] = contact.m_normal;
     }
 }
 

@@ -15,7 +15,7 @@ namespace bullet_fem
 class ContactMatcher
 {
 public:
-    /// Notes the strongest contact of every vertex in the last step.
+    /// Notes the contact of every vertex that pushed most in the last step; of those that did not, the deepest.
     void begin(const FemSoftBody& fem);
 
     /// Per vertex, the normal of that contact, or 0.
@@ -30,8 +30,8 @@ private:
     void inheritImpulses(const FemSoftBody& fem, ContactList& list);
 
     std::vector<Vec3> m_heldNormal;
-    std::vector<double> m_heldBy;            // impulse of that contact [N s]
-    std::vector<unsigned char> m_continued;  // per contact of the last step: its impulse was taken over
+    std::vector<const ContactPoint*> m_heldBy;  // that contact, or null
+    std::vector<unsigned char> m_continued;     // per contact of the last step: its impulse was taken over
     WarmStartTransfer m_transfer;
 };
 

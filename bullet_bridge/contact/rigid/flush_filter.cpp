@@ -73,10 +73,15 @@ void FlushFilter::addCarriers(const SearchScope& scope, const std::vector<Contac
 bool FlushFilter::isFlushWithCarriers(const SearchScope& scope, const Candidate& candidate)
 {
     const ContactPoint& contact = candidate.m_contact;
+    const Triangle& corners = candidate.m_corners;
+    // An edge crosses the rim of a flush wall beside the vertex that slides; farther away it crosses a rim of its own.
+    const bool isCrossing =
+        candidate.m_target.m_kind == TargetKind::sheets && corners[1] != corners[0] && corners[2] == corners[0];
     bool flush = false;
     for (int a = 0; a < 3 && !flush; ++a)
     {
-        const Vec3& x = scope.fem().surfacePosition()[candidate.m_corners[a]];
+        const Vec3& x = scope.fem().surfacePosition()[corners[a]];
+        if (isCrossing && norm(contact.m_point - x) > m_carried.lift()) continue;
         const auto check = [&](const CarriedMotion::Carrier& c)
         {
             const double cosine = dot(contact.m_normal, c.m_normal);
@@ -86,7 +91,7 @@ bool FlushFilter::isFlushWithCarriers(const SearchScope& scope, const Candidate&
                         ? isFlushWith(candidate.m_target, contact, x - c.m_gap * c.m_normal, c.m_normal)
                         : isBehindPath(scope, candidate);
         };
-        m_carried.forEach(candidate.m_corners[a], check);
+        m_carried.forEach(corners[a], check);
     }
     return flush;
 }
@@ -101,14 +106,15 @@ bool isBesideCarryingPlane(const SearchScope& scope, const ContactTarget& target
            plane.m_distance - dot(plane.m_normal, point) < kSunk * scope.m_edge;
 }
 
-// True if the target does not rise near the contact above the plane that carries the point.
+// True if the target does not rise near the contact above the plane that carries the point. The faces of a steep ridge
+// are no walls that a contact with it shows: there the ridge itself counts.
 bool FlushFilter::isFlushWith(const ContactTarget& target, const ContactPoint& contact, const Vec3& onPlane,
                               const Vec3& normal)
 {
     const double height = dot(normal, contact.m_point - onPlane);
     const Vec3 lifted = contact.m_point + std::max(0.0, m_carried.lift() - height) * normal;
     Vec3 nearest;
-    if (!nearestOn(target, lifted, contact, nearest)) return true;
+    if (!nearestOn(target, lifted, contact, nearest)) nearest = contact.m_point - contact.m_gap * contact.m_normal;
     return dot(normal, nearest - onPlane) < kMinStep * m_carried.lift();
 }
 

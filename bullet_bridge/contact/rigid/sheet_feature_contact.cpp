@@ -11,9 +11,9 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kSharpFeatureSine = 1e-3;  // smallest sine by which a corner or edge stands out [-]
-constexpr double kParallelEdges = 1e-3;     // sine of the angle between edges that count as parallel [-]
-constexpr double kOutsideOfCone = 0.05;     // tolerance of a normal outside the cone of a soft edge's normals [-]
+constexpr double kFlatSine = 1e-3;       // sine up to which a triangle is parallel to a soft face or edge [-]
+constexpr double kParallelEdges = 1e-3;  // sine of the angle between edges that count as parallel [-]
+constexpr double kOutsideOfCone = 0.05;  // tolerance of a normal outside the cone of a soft edge's normals [-]
 
 /// Calls visit(index) for the triangles near a feature's corners, along their outward direction by the reach and inward
 /// by the depth. `spread`: sine of the largest deviation from that direction.
@@ -39,26 +39,28 @@ bool isWithin(const SheetFeature& feature, double gap)
     return gap - feature.m_thickness <= feature.m_reach && gap >= -feature.m_depth;
 }
 
-/// True if corner q of a triangle is a tip: all triangles around it lie beyond it in `direction`. True only for the
-/// triangle of smallest index among those that share the corner.
+/// True if corner q of a triangle is a tip: no triangle around it rises against `direction`, and one falls off. True
+/// only for the triangle of smallest index among those that share the corner.
 bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& direction)
 {
-    bool tip = true;
+    bool tip = true, falls = false;
     const auto check = [&](int t)
     {
         for (const Vec3& corner : soup.triangles()[t].m_corners)
         {
             const Vec3 way = corner - q;
             const double length = norm(way);
+            const double beyond = dot(way, direction);
             if (length <= soup.tolerance())
                 tip = tip && t >= triangle;
             else
-                tip = tip && dot(way, direction) > kSharpFeatureSine * length;
+                tip = tip && beyond >= -kFlatSine * length;
+            falls = falls || beyond > kFlatSine * length;
         }
     };
     check(triangle);
     if (tip) soup.forEachAround(q, check);
-    return tip;
+    return tip && falls;
 }
 
 /// The crossing of a soft edge and an edge of the soup.
@@ -95,26 +97,32 @@ bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCr
     return isWithin(soft, crossing.m_gap);
 }
 
-/// True if the soup falls off on both sides of the edge at the crossing. True only for the triangle of smallest index
-/// among those that share the edge.
+/// True if the triangle falls off from its edge at the crossing, and none beside the edge rises. True only for the
+/// triangle of smallest index among those that fall off.
 bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossing)
 {
-    bool ridge = true;
+    bool ridge = true, falls = false;
     const auto check = [&](int t)
     {
         int onEdge = 0;
+        falls = false;
         for (const Vec3& corner : soup.triangles()[t].m_corners)
         {
             const Vec3 way = corner - crossing.m_point;
             if (norm(cross(way, crossing.m_along)) <= soup.tolerance())
                 ++onEdge;
             else
-                ridge = ridge && dot(way, crossing.m_normal) < -kSharpFeatureSine * norm(way);
+            {
+                const double above = dot(way, crossing.m_normal);
+                ridge = ridge && above <= kFlatSine * norm(way);
+                falls = falls || above < -kFlatSine * norm(way);
+            }
         }
-        ridge = ridge && (onEdge < 2 || t >= triangle);
+        ridge = ridge && (onEdge < 2 || !falls || t >= triangle);
     };
     check(triangle);
-    if (ridge) soup.forEachAround(crossing.m_point, check);
+    if (!ridge || !falls) return false;
+    soup.forEachAround(crossing.m_point, check);
     return ridge;
 }
 

@@ -16,35 +16,12 @@
 #include "plugin/scenes/ground_kinds.h"
 #include "plugin/scenes/kinematic_bodies.h"
 #include "plugin/scenes/scene_measures.h"
+#include "plugin/scenes/sharp_solids.h"
 
 namespace bullet_fem
 {
 namespace
 {
-
-// A wedge of height 1.5 L above its sharp edge along y, 1 L long and .8 L wide.
-TetMesh makeWedge(double L)
-{
-    constexpr int kLayers = 3;
-    std::vector<Vec3> X;
-    std::vector<Tet> tets;
-    for (int k = 0; k <= kLayers; ++k)
-    {
-        const double y = L * (double(k) / kLayers - 0.5);
-        X.insert(X.end(), {{-0.4 * L, y, 1.5 * L}, {0.4 * L, y, 1.5 * L}, {0, y, 0}});
-    }
-    for (int a = 0; a < 3 * kLayers; a += 3)
-        tets.insert(tets.end(), {{a, a + 1, a + 2, a + 5}, {a, a + 1, a + 4, a + 5}, {a, a + 3, a + 4, a + 5}});
-    return TetMesh(X, tets);
-}
-
-// A spike of height 1.5 L above its tip, with a square top of .8 L.
-TetMesh makeSpike(double L)
-{
-    const double r = 0.4 * L, z = 1.5 * L;
-    return TetMesh({{-r, -r, z}, {r, -r, z}, {r, r, z}, {-r, r, z}, {0, 0, 0}, {0, 0, z}},
-                   {{0, 1, 5, 4}, {1, 2, 5, 4}, {2, 3, 5, 4}, {3, 0, 5, 4}});
-}
 
 /// A world with a ground of one kind, for bodies of size L.
 struct SharpScene
