@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/world/btFemWorldStep.h"
 
+#include <algorithm>
+
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_fem/btFemHelpers.h"
@@ -32,11 +34,13 @@ void btFemWorldStep::predict(double step)
     wakeDisturbedBodies(m_registry, m_world);
     m_group.beginStep(step);
     m_group.welds().beginStep(step);
+    listSweeps(step);
     selectMoving(step);
     runOn(m_due,
-          [step](btFemBodyRecord& record)
+          [this, step](btFemBodyRecord& record)
           {
               predictBody(record, bodyStep(record, step));
+              m_kinematicSweeps.widenBounds(*record.m_softBody);
               markForces(record);
           });
     for (btFemBodyRecord* record : m_due)
@@ -47,6 +51,20 @@ void btFemWorldStep::predict(double step)
     }
     prepareForCollision(m_registry.records());
     m_rewindSolver.note(m_due.empty() ? nullptr : m_due.front()->m_softBody);
+}
+
+// Lists the ways of fast kinematic bodies, and wakes the bodies on them.
+void btFemWorldStep::listSweeps(double step)
+{
+    const auto isPresent = [](const auto& record) { return record->m_membership.m_present && record->isFem(); };
+    const auto& records = m_registry.records();
+    const auto first = std::find_if(records.begin(), records.end(), isPresent);
+    if (first == records.end()) return;
+    const btSoftBodyWorldInfo* world = (*first)->m_softBody->m_worldInfo;
+    if (!world || !world->m_broadphase) return;
+    m_kinematicSweeps.list(*world->m_broadphase, step);
+    for (const auto& record : records)
+        if (isPresent(record) && m_kinematicSweeps.sweepOver(*record->m_softBody)) record->m_softBody->activate();
 }
 
 btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo)

@@ -13,6 +13,7 @@
 #include "plugin/stages/btFemContactGroup.h"
 #include "plugin/stages/btFemDetailChooser.h"
 #include "plugin/stages/btFemFreeMotion.h"
+#include "plugin/stages/btFemKinematicSweeps.h"
 #include "plugin/stages/btFemRefactoring.h"
 #include "plugin/stages/btFemSplitter.h"
 
@@ -66,6 +67,7 @@ public:
     btFemSplitter& splitter() { return m_splitter; }
 
 private:
+    void listSweeps(double step);
     void selectMoving(double step);
     void selectUnsolved(double step);
     void finishMotions(double step);
@@ -81,6 +83,7 @@ private:
     bullet_fem::Threads m_threads;
     std::unique_ptr<bullet_fem::BatchMemory> m_batchMemory;  // null: bodies are solved one by one
     bullet_fem::WorldObjects m_world;
+    btFemKinematicSweeps m_kinematicSweeps;
     btFemDetailChooser m_detailChooser;
     btFemRefactorPolicy m_refactoring;
     btFemFreeMotion m_freeMotion;
