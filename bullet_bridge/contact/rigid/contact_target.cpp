@@ -80,14 +80,13 @@ void SearchScope::findExposed()
     const std::vector<int>& inner = body.innerNodes();
     if (inner.empty()) return;
     const std::vector<Vec3>& x = body.surfacePosition();
-    const TetMesh& mesh = body.m_body.m_model->mesh();
     m_isInsideOut.clear();
-    if (body.m_search.m_isInsideOut) m_isInsideOut.assign(x.size(), 0);
-    for (const Tet& t : mesh.tets())
+    if (body.m_search.m_isInsideOut)
     {
-        if (!body.m_search.m_isInsideOut) break;
-        if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
-            for (int node : t) m_isInsideOut[node] = 1;
+        m_isInsideOut.assign(x.size(), 0);
+        for (const Tet& t : body.m_body.m_model->mesh().tets())
+            if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
+                for (int node : t) m_isInsideOut[node] = 1;
     }
     const Vec3 low = m_culling.low(), high = m_culling.high();
     for (int i : inner)
