@@ -55,7 +55,7 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
 {
     const auto known = std::find_if(m_trees.begin(), m_trees.end(), [&](const Tree& t) { return t.m_body == &body; });
     if (known != m_trees.end()) return static_cast<int>(known - m_trees.begin());
-    const Tree tree = {&body, kBaseCoordinates + body.getNumDofs(), m_velocity.size()};
+    const Tree tree = {&body, kBaseCoordinates + body.getNumDofs(), m_velocity.size(), false};
     m_trees.push_back(tree);
     const btScalar* velocity = body.getVelocityVector();
     m_velocity.insert(m_velocity.end(), velocity, velocity + tree.m_coordinates);
@@ -69,7 +69,8 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
         const std::vector<double>& acceleration = m_dynamics.acceleration();
         for (int k = body.isBaseStaticOrKinematic() ? kBaseCoordinates : 0; k < tree.m_coordinates; ++k)
             m_freeVelocity[tree.m_first + k] += step * acceleration[k];
-        m_history.addSupport(body, step, acceleration, &m_velocity[tree.m_first], &m_freeVelocity[tree.m_first]);
+        m_trees.back().m_isFree =
+            m_history.addSupport(body, step, acceleration, &m_velocity[tree.m_first], &m_freeVelocity[tree.m_first]);
     }
     return static_cast<int>(m_trees.size()) - 1;
 }
@@ -162,6 +163,12 @@ void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vect
             if (moved.m_tree == pushed.m_tree) responses.push_back(response(moved, pushed));
         rigidProxy.m_responseCount = static_cast<int>(responses.size()) - rigidProxy.m_firstResponse;
     }
+}
+
+bool ArticulatedBodies::isFree(int index) const
+{
+    return std::any_of(m_links.begin(), m_links.end(),
+                       [&](const Link& link) { return link.m_rigidProxy == index && m_trees[link.m_tree].m_isFree; });
 }
 
 void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& angular)

@@ -70,6 +70,10 @@ public:
 
     bool isEmpty() const { return m_links.empty(); }
 
+    /// True if forces alone changed the velocity of the link's multibody in this step: no contact, motor, limit or
+    /// joint acts on it. Only after add() with a step.
+    bool isFree(int index) const;
+
     /// Adds an impulse [N s] and an angular impulse [N m s] about the centre of rigid proxy `index`. Ignored if that is
     /// no link.
     void addImpulse(int index, const Vec3& impulse, const Vec3& angular);
@@ -86,6 +90,7 @@ private:
         btMultiBody* m_body;
         int m_coordinates;    // base: three angular, three linear; then the joints
         std::size_t m_first;  // in m_velocity, m_freeVelocity
+        bool m_isFree;        // forces alone changed its velocity
     };
     struct Link
     {

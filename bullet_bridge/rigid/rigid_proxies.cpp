@@ -178,8 +178,8 @@ int RigidProxies::indexForJoint(const btCollisionObject& object, double step)
     const bool isKnown = find(object) >= 0;
     const int index = indexOf(object, step);
     const btRigidBody* body = movableBody(object);
-    const bool canRewind = body && body->getNumConstraintRefs() == 0 && object.getHitFraction() != 0;
-    if (!isKnown && m_phase == RigidPhase::moved && canRewind) rewind(index, step);
+    const bool canRewind = body ? body->getNumConstraintRefs() == 0 : m_links.isFree(index);
+    if (!isKnown && m_phase == RigidPhase::moved && canRewind && object.getHitFraction() != 0) rewind(index, step);
     return index;
 }
 

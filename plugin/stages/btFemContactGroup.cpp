@@ -251,6 +251,8 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet, const MultiBo
         for (btFemBodyRecord* record : m_records) record->m_reports.m_step.m_flags |= BT_FEM_BAD_CONSTRAINT;
     m_solverBodies.read(m_problem.m_rigidProxies);
     if (links) m_multiBodyRows.append({bullet, *links, m_solverBodies.proxyOf(), m_rigid, m_problem});
+    if (links && links->m_joints.size() + links->m_contacts.size() > 0)
+        m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
     m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
     if (links) m_multiBodyRows.takeBack({bullet, *links, m_solverBodies.proxyOf(), m_rigid, m_problem});
