@@ -125,6 +125,8 @@ void btFemContactGroup::findRigid()
         const ContactSearchReport& found = m_rigidSearch.reports()[b];
         if (found.m_unknownShape) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_UNKNOWN_SHAPE;
         if (found.m_limited) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_CONTACT_LIMIT;
+        if (found.m_encloses) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_PENETRATING;
+        m_records[b]->m_work.m_sleep.m_enclosesObject = found.m_encloses;
     }
 }
 
