@@ -96,7 +96,7 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
     m_nodeIn.resize(nodes);
     m_nodeOut.resize(nodes);
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
-    m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
+    m_formed = m_tooSoft = m_mixed = false;
     m_firstJoint = std::min(m_firstJoint, size());
     m_firstPoint = m_dense ? 0 : m_firstJoint;
     m_points.clear(nodes);

@@ -26,7 +26,7 @@ void ContactRows::setAxes(const Vec3& n, ContactRow& row)
     row.m_axes[2] = cross(n, row.m_axes[1]);
 }
 
-void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal)
+void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings, double floor)
 {
     m_problem = &problem;
     m_settings = settings;
@@ -62,7 +62,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),
              [&](int b)
              {
-                 if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, goal);
+                 if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, floor);
              });
     measure();
     forEachChunk(
