@@ -43,7 +43,7 @@ inline constexpr double kRollBackRatio = 1, kMuchWorse = 2;
 // If an outer iteration leaves more than this share of a small error, the error is that of the corrective solves, or of
 // sliding points that pass load on gradually, which the next step corrects. If W is too soft, every outer iteration
 // removes only a part. Impacts may take several iterations without visible progress [-]. Loses: a quarter more sweeps
-// in PinchFriction.
+// in PinchFriction; StaleContact without the limits where W is soft.
 inline constexpr double kStandstill = 0.8, kSmallError = 5e-3;
 inline constexpr double kStandstillWhereSoft = 0.97, kSmallErrorWhereSoft = 1e-3;
 
