@@ -267,7 +267,7 @@ bool ContactSolver::sweep(double others)
     const bool othersMove = others > kRoundingOfOthers && othersChange > tolerance;
     if (othersMove) s.m_sweeps.othersMoved();
     s.m_othersMoved = s.m_othersMoved || othersMove;
-    const bool moves = s.m_sweeps.sweep(s.m_rows.isDense() ? std::min(tolerance, kCoarsestChange) : tolerance);
+    const bool moves = s.m_sweeps.sweep(tolerance);
     if (s.m_sweeps.runsAway())
     {
         s.m_sweeps.letGo();
