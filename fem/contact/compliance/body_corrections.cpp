@@ -176,7 +176,7 @@ void SoftBodyContacts::learn(const Lesson& lesson)
     if (m_points.points() > 0) m_points.scaleElastic(factor);
     if (!m_dense) return;
     formOwn();
-    m_working.reset(size(), static_cast<int>(m_motions.size()));
+    m_working.reset(m_points, static_cast<int>(m_motions.size()));
 }
 
 }  // namespace bullet_fem

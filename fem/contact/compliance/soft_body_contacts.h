@@ -121,7 +121,7 @@ public:
     /// each side in it, and startWork.
     void choose() { m_working.choose(); }
     void work(int e) { m_working.add(e); }
-    void startWork() { m_working.pack(m_points, m_slotVelocity); }
+    void startWork() { m_working.pack(m_slotVelocity); }
 
     /// The working set, for Anderson mixing; pushAlong adds an impulse to a side whose velocities the mix adds.
     WorkingSet& working() { return m_working; }
@@ -217,7 +217,8 @@ private:
     std::vector<Mat3> m_own;  // dense: W_ee
     // dense: a side outside the working set has an impulse that the set's velocities do not include
     bool m_pushedAtRest = false;
-    std::vector<Response> m_responses;           // elastic responses of a refresh
+    std::vector<Vec3> m_slotImpulse;             // impulses of a refresh on the slots
+    std::vector<Response> m_responses;           // their elastic responses
     std::vector<RigidMotion> m_motions;          // and the rigid ones, per component
     std::vector<Vec3> m_nodeIn, m_nodeOut;       // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee

@@ -84,7 +84,21 @@ struct ContactSolver::Scratch
     bool m_begins = false;       // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
     bool m_isAlone = false;  // there are no rows of a caller
+
+    bool settleRigid();
 };
+
+// Solves what moves rigid bodies alone for the warm start of the rest: joints have none, and without them the first
+// sweep would undo that of the contacts. True if there is any.
+bool ContactSolver::Scratch::settleRigid()
+{
+    const bool joints = !m_problem->m_joints.empty() && !m_holdsSoft;
+    if (joints) m_sweeps.joints().solve();
+    const bool contacts = m_rows.settleRigidContacts();
+    if (joints && contacts) m_sweeps.joints().solve();
+    if (joints) m_gcr.look(true);
+    return joints || contacts;
+}
 
 double residualFloor(double contactTolerance, double solveTolerance)
 {
@@ -147,7 +161,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         s.m_sweeps.measure();
         s.m_gcr.look();
     }
-    if (s.m_rows.settleRigidContacts() || !guesses) s.m_found = s.m_sweeps.look();
+    if (s.settleRigid() || !guesses) s.m_found = s.m_sweeps.look();
     // A warm start that is balanced up to one per cent may leave a stiff body a thousand times the missing speed.
     s.m_rows.setSpeedScale(std::min(missing, std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed())));
     const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
@@ -247,7 +261,7 @@ bool ContactSolver::sweep(double others)
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    if (s.m_begins) s.m_gcr.combine();
+    if (s.m_begins && s.m_holdsSoft) s.m_gcr.combine();
     s.m_begins = false;
     const double tolerance = s.m_settings.m_tolerance;
     const double othersChange = s.m_rows.share(others);
@@ -301,7 +315,7 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
-    if (s.m_begins && errorOfJoints() > kJointTolerance && s.m_gcr.isBestBehind())
+    if (s.m_begins && s.m_holdsSoft && errorOfJoints() > kJointTolerance && s.m_gcr.isBestBehind())
     {
         s.m_gcr.takeBest();
         correct();
