@@ -94,6 +94,7 @@ if [ -s "$out/curve.json" ]; then
 fi
 if [ "$full" -eq 1 ] && [ -s "$out/motion.json" ]; then
     "$python" "$root/tools/plot_motion_against_step.py" "$out/motion.json" "$root/docs/motion_against_step.png"
+    "$python" "$root/tools/plot_rebound.py" "$out/motion.json" "$root/docs/rebound_against_stiffness.png"
 fi
 if [ -s "$out/materials.json" ]; then
     "$python" "$root/tools/plot_materials.py" "$out/materials.json" "$root/docs/materials.png"

@@ -27,6 +27,7 @@ const Description g_descriptions[] = {
     {MotionCase::tip, "tip", "error", "-", "largest error of the beam's tip in a second / largest deflection"},
     {MotionCase::swing, "swing", "half-life", "s", "half-life of the amplitude of an undamped swing of 1.7 Hz"},
     {MotionCase::drop, "drop", "returns", "-", "rebound speed of an undamped ball dropped from a metre / impact speed"},
+    {MotionCase::rebound, "rebound", "returns", "-", "the same for balls of 0.1, 1 and 10 MPa"},
     {MotionCase::roll10, "roll10", "speed", "m/s", "speed of a ball after six seconds down ten degrees"},
     {MotionCase::roll20, "roll20", "speed", "m/s", "speed of a ball after six seconds down twenty degrees"}};
 
@@ -39,7 +40,10 @@ const Description& describe(MotionCase motionCase)
 
 const char* nameOf(MotionMethod method)
 {
-    return method == MotionMethod::euler ? "Euler" : method == MotionMethod::secondOrder ? "second order" : "rigid";
+    return method == MotionMethod::euler         ? "Euler"
+           : method == MotionMethod::secondOrder ? "second order"
+           : method == MotionMethod::standard    ? "default"
+                                                 : "rigid";
 }
 
 double degreesOf(MotionCase motionCase)
@@ -71,8 +75,26 @@ std::vector<MotionFigures> measureTips(const std::vector<int>& rates, int refere
         for (const int rate : rates)
         {
             const FallingBeam beam = dropBeam(method, rate);
-            rows.push_back({MotionCase::tip, method, rate, tipError(beam, reference), 0, beam.m_milliseconds});
+            rows.push_back({MotionCase::tip, method, rate, tipError(beam, reference), 0, beam.m_milliseconds, 0});
         }
+    return rows;
+}
+
+std::vector<MotionFigures> measureRebounds(const std::vector<int>& rates, int referenceRate, int ballCells)
+{
+    std::vector<MotionFigures> rows;
+    for (const double young : {1e5, 1e6, 1e7})
+    {
+        std::cerr << nameOf(MotionCase::rebound) << ", " << young << " Pa ..." << std::endl;
+        const double reference = dropBall(MotionMethod::secondOrder, referenceRate, ballCells, young).m_value;
+        for (const MotionMethod method : {MotionMethod::euler, MotionMethod::standard})
+            for (const int rate : rates)
+            {
+                const Measured ball = dropBall(method, rate, ballCells, young);
+                rows.push_back(
+                    {MotionCase::rebound, method, rate, ball.m_value, reference, ball.m_milliseconds, young});
+            }
+    }
     return rows;
 }
 
@@ -87,13 +109,14 @@ MotionCase motionCase(const std::string& name)
 {
     for (const Description& description : g_descriptions)
         if (name == description.m_name) return description.m_case;
-    throw std::invalid_argument("--cases has " + name + ", must be of tip, swing, drop, roll10, roll20");
+    throw std::invalid_argument("--cases has " + name + ", must be of tip, swing, drop, rebound, roll10, roll20");
 }
 
 std::vector<MotionFigures> measureMotion(MotionCase motionCase, const std::vector<int>& rates, int referenceRate,
                                          int ballCells)
 {
     if (motionCase == MotionCase::tip) return measureTips(rates, referenceRate);
+    if (motionCase == MotionCase::rebound) return measureRebounds(rates, referenceRate, ballCells);
     const bool rolls = motionCase == MotionCase::roll10 || motionCase == MotionCase::roll20;
     double reference = std::numeric_limits<double>::infinity();  // the swing is undamped
     if (motionCase != MotionCase::swing)
@@ -106,7 +129,7 @@ std::vector<MotionFigures> measureMotion(MotionCase motionCase, const std::vecto
             if (isRigid && !rolls) continue;
             const Measured value = measure(motionCase, method, rate, ballCells);
             rows.push_back({motionCase, method, rate, value.m_value,
-                            isRigid ? speedOfRigidSphere(degreesOf(motionCase)) : reference, value.m_milliseconds});
+                            isRigid ? speedOfRigidSphere(degreesOf(motionCase)) : reference, value.m_milliseconds, 0});
         }
     return rows;
 }
@@ -141,6 +164,7 @@ nlohmann::json toJson(const std::vector<MotionFigures>& rows)
                            {"value", row.m_value},
                            {"unit", describe(row.m_case).m_unit},
                            {"reference", row.m_reference},
+                           {"young", row.m_young},
                            {"ms_cpu_median", row.m_milliseconds}});
     return results;
 }

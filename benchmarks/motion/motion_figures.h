@@ -18,6 +18,7 @@ enum class MotionCase
     tip,
     swing,
     drop,
+    rebound,
     roll10,
     roll20
 };
@@ -31,6 +32,7 @@ struct MotionFigures
     double m_value = 0;         ///< in the unit of the case
     double m_reference = 0;     ///< value at the reference step size; NaN if there is none
     double m_milliseconds = 0;  ///< processor time per step, median [ms]
+    double m_young = 0;         ///< modulus of the body, where it varies [Pa]
 };
 
 /// Name without blanks, for files and options.

@@ -24,7 +24,6 @@ namespace
 
 constexpr double kGravity = 9.81;        // [m/s2]
 constexpr double kRadius = 0.25;         // of the balls [m]
-constexpr double kBallYoung = 1e6;       // [Pa]
 constexpr double kBallDensity = 1000;    // [kg/m3]
 constexpr double kRollSeconds = 6;       // [s]
 constexpr double kRollDamping = 0.005;   // stiffness damping of the rolling material [s]
@@ -67,12 +66,12 @@ public:
         return *m_rigid.back();
     }
 
-    btSoftBody& addBall(int cells, double stiffnessDamping, double height)
+    btSoftBody& addBall(int cells, double stiffnessDamping, double height, double young = kBallYoung)
     {
         m_soft.reset(btFemHelpers::createFromTetMesh(m_world.getWorldInfo(), makeSphere(kRadius, cells)));
         m_soft->translate({0, 0, btScalar(height)});
         btFemMaterial material;
-        material.m_youngModulus = btScalar(kBallYoung);
+        material.m_youngModulus = btScalar(young);
         material.m_density = btScalar(kBallDensity);
         material.m_stiffnessDamping = btScalar(stiffnessDamping);
         m_fem.setMaterial(m_soft.get(), material);
@@ -97,6 +96,7 @@ private:
     static btFemSolverInfo solverInfo(MotionMethod method)
     {
         btFemSolverInfo info;
+        if (method == MotionMethod::standard) return info;
         info.m_numericalDamping = info.m_contactDamping = method == MotionMethod::secondOrder ? 0 : 1;
         info.m_elasticRebound = false;
         return info;
@@ -132,11 +132,11 @@ double radians(double degrees)
     return degrees * std::acos(-1) / 180;
 }
 
-Measured fallFrom(double height, MotionMethod method, int rate, int cells)
+Measured fallFrom(double height, MotionMethod method, int rate, int cells, double young)
 {
     MotionWorld world(method, rate, {0, 0, btScalar(-kGravity)});
     btRigidBody& floor = world.addRigid(std::make_unique<btBoxShape>(btVector3(5, 5, 1)), {0, 0, -1}, 0);
-    btSoftBody& ball = world.addBall(cells, 0, kRadius + height);
+    btSoftBody& ball = world.addBall(cells, 0, kRadius + height, young);
     const double impact = std::sqrt(2 * kGravity * height);
     const int steps = static_cast<int>(std::lround((impact / kGravity + kContactSeconds) * rate));
     bool touched = false;
@@ -152,13 +152,13 @@ Measured fallFrom(double height, MotionMethod method, int rate, int cells)
 
 }  // namespace
 
-Measured dropBall(MotionMethod method, int rate, int cells)
+Measured dropBall(MotionMethod method, int rate, int cells, double young)
 {
     Measured mean;
     const double heights[] = {1.01, 1.03, 1.05, 1.07};  // 2 cm are a quarter of the path in 1/60 s [m]
     for (const double height : heights)
     {
-        const Measured one = fallFrom(height, method, rate, cells);
+        const Measured one = fallFrom(height, method, rate, cells, young);
         mean.m_value += one.m_value / std::size(heights);
         mean.m_milliseconds += one.m_milliseconds / std::size(heights);
     }

@@ -109,6 +109,11 @@ void Demo::paint(const btCollisionObject& object, const Vec3& colour)
     m_film->paint(object, colour);
 }
 
+void Demo::drawBeside(const btDynamicsWorld* world)
+{
+    m_film->drawBeside(world);
+}
+
 bool Demo::step(btDynamicsWorld& world, double h)
 {
     m_film->show(world, m_time);

@@ -59,6 +59,8 @@ public:
     void look(const btVector3& eye, const btVector3& target, double fieldOfView = 0.6);
     /// Sets an object's colour in pictures (sRGB) in place of the default.
     void paint(const btCollisionObject& object, const Vec3& colour);
+    /// Also draws the objects of another world, which the scene steps; null: of none.
+    void drawBeside(const btDynamicsWorld* world);
     /// Steps the world by `h` [s] and draws pictures that are due. Returns false, without a step, when the time is
     /// over.
     bool step(btDynamicsWorld& world, double h = kDemoStep);

@@ -120,7 +120,9 @@ Vec3 DemoFilm::colourOf(const btCollisionObject& object, int soft) const
 void DemoFilm::show(const btDynamicsWorld& world, double time)
 {
     if (!m_series || time * m_framesPerSecond + 1e-6 < m_frames) return;
-    m_surfaces.update(world);
+    std::vector<const btDynamicsWorld*> worlds = {&world};
+    if (m_beside) worlds.push_back(m_beside);
+    m_surfaces.update(worlds);
     m_series->writeBodies(time, m_surfaces.frames());
     draw();
     ++m_frames;

@@ -27,6 +27,8 @@ public:
     void open(const std::string& folder, double seconds);
 
     void look(const btVector3& eye, const btVector3& target, double fieldOfView);
+    /// Also draws the objects of another world; null: of none.
+    void drawBeside(const btDynamicsWorld* world) { m_beside = world; }
     void paint(const btCollisionObject& object, const Vec3& colour) { m_colours[&object] = colour; }
 
     /// Draws the world at `time` [s] if recording has started and the next frame is due. Throws std::runtime_error.
@@ -47,6 +49,7 @@ private:
     DemoSurfaces m_surfaces;
     std::unique_ptr<VtuSeries> m_series;
     std::map<const btCollisionObject*, Vec3> m_colours;
+    const btDynamicsWorld* m_beside = nullptr;
     btVector3 m_eye{3, 2, 4}, m_target{0, 0, 0};
     double m_fieldOfView = 0.6;
     std::unique_ptr<Pictures> m_pictures;

@@ -126,43 +126,46 @@ const DemoSurfaces::Shape& DemoSurfaces::shapeOf(const btCollisionShape& shape)
     return known->second;
 }
 
-void DemoSurfaces::update(const btDynamicsWorld& world)
+void DemoSurfaces::update(const std::vector<const btDynamicsWorld*>& worlds)
 {
     m_frames.clear();
     m_objects.clear();
     m_ground = nullptr;
-    for (int k = 0; k < world.getNumCollisionObjects(); ++k)
+    int id = 0;
+    for (const btDynamicsWorld* world : worlds)
+        for (int k = 0; k < world->getNumCollisionObjects(); ++k) append(*world->getCollisionObjectArray()[k], id++);
+}
+
+void DemoSurfaces::append(const btCollisionObject& object, int id)
+{
+    BodyFrame frame;
+    frame.m_id = id;
+    if (const btSoftBody* body = btSoftBody::upcast(&object))
     {
-        const btCollisionObject* object = world.getCollisionObjectArray()[k];
-        BodyFrame frame;
-        frame.m_id = k;
-        if (const btSoftBody* body = btSoftBody::upcast(object))
+        const bool follows = body->m_renderFaces.size() > 0;
+        for (int i = 0; i < (follows ? body->m_renderNodes.size() : body->m_nodes.size()); ++i)
+            frame.m_positions.push_back(vec3(follows ? body->m_renderNodes[i].m_x : body->m_nodes[i].m_x));
+        for (int t = 0; t < (follows ? body->m_renderFaces.size() : body->m_faces.size()); ++t)
         {
-            const bool follows = body->m_renderFaces.size() > 0;
-            for (int i = 0; i < (follows ? body->m_renderNodes.size() : body->m_nodes.size()); ++i)
-                frame.m_positions.push_back(vec3(follows ? body->m_renderNodes[i].m_x : body->m_nodes[i].m_x));
-            for (int t = 0; t < (follows ? body->m_renderFaces.size() : body->m_faces.size()); ++t)
-            {
-                Triangle triangle;
-                for (int a = 0; a < 3; ++a)
-                    triangle[a] = static_cast<int>(follows ? body->m_renderFaces[t].m_n[a] - &body->m_renderNodes[0]
-                                                           : body->m_faces[t].m_n[a] - &body->m_nodes[0]);
-                frame.m_triangles.push_back(triangle);
-            }
+            Triangle triangle;
+            for (int a = 0; a < 3; ++a)
+                triangle[a] = static_cast<int>(follows ? body->m_renderFaces[t].m_n[a] - &body->m_renderNodes[0]
+                                                       : body->m_faces[t].m_n[a] - &body->m_nodes[0]);
+            frame.m_triangles.push_back(triangle);
         }
-        else
-        {
-            const btCollisionShape& shape = *object->getCollisionShape();
-            if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE && !m_ground) m_ground = object;
-            const Shape& surface = shapeOf(shape);
-            for (const Vec3& p : surface.m_points)
-                frame.m_positions.push_back(vec3(object->getWorldTransform() * bulletVector(p)));
-            frame.m_triangles = surface.m_triangles;
-        }
-        if (frame.m_triangles.empty()) continue;
-        m_frames.push_back(std::move(frame));
-        m_objects.push_back(object);
     }
+    else
+    {
+        const btCollisionShape& shape = *object.getCollisionShape();
+        if (shape.getShapeType() == STATIC_PLANE_PROXYTYPE && !m_ground) m_ground = &object;
+        const Shape& surface = shapeOf(shape);
+        for (const Vec3& p : surface.m_points)
+            frame.m_positions.push_back(vec3(object.getWorldTransform() * bulletVector(p)));
+        frame.m_triangles = surface.m_triangles;
+    }
+    if (frame.m_triangles.empty()) return;
+    m_frames.push_back(std::move(frame));
+    m_objects.push_back(&object);
 }
 
 }  // namespace bullet_fem
