@@ -24,19 +24,30 @@ void ArticulatedBodies::clear()
 LinkMotion ArticulatedBodies::add(int index, const btMultiBodyLinkCollider& link, double step, RigidProxy& rigidProxy)
 {
     const int tree = treeOf(*link.m_multiBody, step);
-    Link added = {index, tree, link.m_link, m_jacobian.size(), {}, {}, {}, {}};
-    m_jacobian.resize(added.m_first + 6 * m_trees[tree].m_coordinates, 0);
-    m_answer.resize(m_jacobian.size(), 0);
+    Link& added = addLink(index, tree, link.m_link);
     m_dynamics.fillRows(*link.m_multiBody, added.m_index, rigidProxy.m_center, &m_jacobian[added.m_first],
                         &m_answer[added.m_first]);
-    m_links.push_back(added);
-    const LinkMotion next = motion(added, m_freeVelocity);
+    setProxy(added, rigidProxy);
+    return motion(added, m_velocity);
+}
+
+ArticulatedBodies::Link& ArticulatedBodies::addLink(int index, int tree, int link)
+{
+    m_links.push_back({index, tree, link, m_jacobian.size(), {}, {}, {}, {}});
+    m_jacobian.resize(m_jacobian.size() + 6 * m_trees[tree].m_coordinates, 0);
+    m_answer.resize(m_jacobian.size(), 0);
+    return m_links.back();
+}
+
+// Predicted velocity, and the response to impulses.
+void ArticulatedBodies::setProxy(const Link& link, RigidProxy& rigidProxy) const
+{
+    const LinkMotion next = motion(link, m_freeVelocity);
     rigidProxy.m_linearVelocity = next.m_linear;
     rigidProxy.m_angularVelocity = next.m_angular;
-    const RigidResponse own = response(added, added);
+    const RigidResponse own = response(link, link);
     for (int c = 0; c < 3; ++c) rigidProxy.m_inverseMass[c] = own.m_linear(c, c);
     rigidProxy.m_inverseInertia = own.m_angular;
-    return motion(added, m_velocity);
 }
 
 // Index of a multibody, which is added at the first call; with its predicted velocity if `step` is not 0.
@@ -44,7 +55,7 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
 {
     const auto known = std::find_if(m_trees.begin(), m_trees.end(), [&](const Tree& t) { return t.m_body == &body; });
     if (known != m_trees.end()) return static_cast<int>(known - m_trees.begin());
-    const Tree tree = {&body, kBaseCoordinates + body.getNumDofs(), m_velocity.size()};
+    const Tree tree = {&body, kBaseCoordinates + body.getNumDofs(), m_velocity.size(), false};
     m_trees.push_back(tree);
     const btScalar* velocity = body.getVelocityVector();
     m_velocity.insert(m_velocity.end(), velocity, velocity + tree.m_coordinates);
@@ -58,7 +69,8 @@ int ArticulatedBodies::treeOf(btMultiBody& body, double step)
         const std::vector<double>& acceleration = m_dynamics.acceleration();
         for (int k = body.isBaseStaticOrKinematic() ? kBaseCoordinates : 0; k < tree.m_coordinates; ++k)
             m_freeVelocity[tree.m_first + k] += step * acceleration[k];
-        m_history.addSupport(body, step, acceleration, &m_velocity[tree.m_first], &m_freeVelocity[tree.m_first]);
+        m_trees.back().m_isFree =
+            m_history.addSupport(body, step, acceleration, &m_velocity[tree.m_first], &m_freeVelocity[tree.m_first]);
     }
     return static_cast<int>(m_trees.size()) - 1;
 }
@@ -97,6 +109,49 @@ void ArticulatedBodies::setCenter(int index, const Vec3& center)
                                 &m_answer[link.m_first]);
 }
 
+void ArticulatedBodies::addRows(int index, btMultiBody& body, const std::array<const btScalar*, 3>& jacobians,
+                                const std::array<const btScalar*, 3>& answers, RigidProxy& rigidProxy)
+{
+    const Link& added = addLink(index, treeOf(body, 0), -1);
+    const std::size_t n = m_trees[added.m_tree].m_coordinates;
+    for (std::size_t row = 0; row < jacobians.size(); ++row)
+    {
+        if (!jacobians[row]) continue;
+        std::copy_n(jacobians[row], n, &m_jacobian[added.m_first + row * n]);
+        std::copy_n(answers[row], n, &m_answer[added.m_first + row * n]);
+    }
+    setProxy(added, rigidProxy);
+}
+
+void ArticulatedBodies::addBetween(int index, const btMultiBodyLinkCollider& a, const Vec3& point,
+                                   const btMultiBodyLinkCollider& b, RigidProxy& rigidProxy)
+{
+    btMultiBody& body = *a.m_multiBody;
+    const Link& added = addLink(index, treeOf(body, 0), a.m_link);
+    const std::size_t size = m_jacobian.size() - added.m_first;
+    m_other.assign(size, 0);
+    m_otherAnswer.assign(size, 0);
+    m_dynamics.fillRows(body, a.m_link, point, &m_jacobian[added.m_first], &m_answer[added.m_first]);
+    m_dynamics.fillRows(body, b.m_link, rigidProxy.m_center, &m_other[0], &m_otherAnswer[0]);
+    for (std::size_t k = 0; k < size; ++k)
+    {
+        m_jacobian[added.m_first + k] -= m_other[k];
+        m_answer[added.m_first + k] -= m_otherAnswer[k];
+    }
+    setProxy(added, rigidProxy);
+}
+
+void ArticulatedBodies::letGo(int first, const std::vector<RigidProxy>& rigidProxies)
+{
+    for (Link& link : m_links)
+    {
+        if (link.m_rigidProxy < first) continue;
+        link.m_push = rigidProxies[link.m_rigidProxy].m_pushImpulse;
+        link.m_angularPush = rigidProxies[link.m_rigidProxy].m_pushAngularImpulse;
+        link.m_rigidProxy = -1;
+    }
+}
+
 void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const
 {
     responses.clear();
@@ -108,6 +163,12 @@ void ArticulatedBodies::connect(std::vector<RigidProxy>& rigidProxies, std::vect
             if (moved.m_tree == pushed.m_tree) responses.push_back(response(moved, pushed));
         rigidProxy.m_responseCount = static_cast<int>(responses.size()) - rigidProxy.m_firstResponse;
     }
+}
+
+bool ArticulatedBodies::isFree(int index) const
+{
+    return std::any_of(m_links.begin(), m_links.end(),
+                       [&](const Link& link) { return link.m_rigidProxy == index && m_trees[link.m_tree].m_isFree; });
 }
 
 void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& angular)
@@ -122,7 +183,8 @@ void ArticulatedBodies::addImpulse(int index, const Vec3& impulse, const Vec3& a
 
 void ArticulatedBodies::apply(const std::vector<RigidProxy>& rigidProxies, double step)
 {
-    for (Link& link : m_links) link.m_angularImpulse += rigidProxies[link.m_rigidProxy].m_angularImpulse;
+    for (Link& link : m_links)
+        if (link.m_rigidProxy >= 0) link.m_angularImpulse += rigidProxies[link.m_rigidProxy].m_angularImpulse;
     for (std::size_t k = 0; k < m_trees.size(); ++k)
     {
         const Tree& tree = m_trees[k];
@@ -146,8 +208,9 @@ bool ArticulatedBodies::solve(const Tree& tree, int number, const std::vector<Ri
     for (const Link& link : m_links)
     {
         if (link.m_tree != number) continue;
-        const Vec3 impulse = pushed ? (*pushed)[link.m_rigidProxy].m_pushImpulse : link.m_impulse;
-        const Vec3 angular = pushed ? (*pushed)[link.m_rigidProxy].m_pushAngularImpulse : link.m_angularImpulse;
+        const RigidProxy* proxy = pushed && link.m_rigidProxy >= 0 ? &(*pushed)[link.m_rigidProxy] : nullptr;
+        const Vec3 impulse = proxy ? proxy->m_pushImpulse : pushed ? link.m_push : link.m_impulse;
+        const Vec3 angular = proxy ? proxy->m_pushAngularImpulse : pushed ? link.m_angularPush : link.m_angularImpulse;
         for (int row = 0; row < 6; ++row)
             for (int k = 0; k < n; ++k)
                 m_force[k] +=
@@ -180,65 +243,6 @@ void ArticulatedBodies::displace(const Tree& tree, double step)
     m_change.assign(tree.m_coordinates, 0);
     m_dynamics.respond(body, &m_impulse[0], &m_change[0]);
     m_history.addVelocity(body, m_change);
-}
-
-// Within Bullet's rigid solver, its rows and the impulses of soft bodies change joint velocities in one
-// single-precision array.
-
-void ArticulatedBodies::beginSolve(btAlignedObjectArray<btScalar>& deltas)
-{
-    m_deltas = &deltas;
-    m_beyondDeltas.assign(m_velocity.size(), 0);
-    m_solved.assign(m_velocity.size(), 0);
-    for (Link& link : m_links) link.m_accumulatedImpulse = link.m_accumulatedAngularImpulse = {};
-}
-
-// Total change of coordinate k. A multibody without rows in Bullet's solver has no entry in *m_deltas.
-double ArticulatedBodies::changeIn(const Tree& tree, int k) const
-{
-    const int first = tree.m_body->getCompanionId();
-    const double known = first >= 0 ? double((*m_deltas)[first + k]) : 0;
-    return known + m_beyondDeltas[tree.m_first + k];
-}
-
-void ArticulatedBodies::readSolved(std::vector<RigidProxy>& rigidProxies) const
-{
-    for (const Tree& tree : m_trees)
-        for (int k = 0; k < tree.m_coordinates; ++k)
-            m_solved[tree.m_first + k] = m_velocity[tree.m_first + k] + changeIn(tree, k);
-    for (const Link& link : m_links)
-    {
-        const LinkMotion now = motion(link, m_solved);
-        rigidProxies[link.m_rigidProxy].m_linearVelocity = now.m_linear;
-        rigidProxies[link.m_rigidProxy].m_angularVelocity = now.m_angular;
-    }
-}
-
-void ArticulatedBodies::writeSolved(const std::vector<RigidProxy>& rigidProxies)
-{
-    for (Link& link : m_links)
-    {
-        const RigidProxy& proxy = rigidProxies[link.m_rigidProxy];
-        const Vec3 impulse = proxy.m_accumulatedImpulse - link.m_accumulatedImpulse,
-                   angular = proxy.m_accumulatedAngularImpulse - link.m_accumulatedAngularImpulse;
-        link.m_accumulatedImpulse = proxy.m_accumulatedImpulse;
-        link.m_accumulatedAngularImpulse = proxy.m_accumulatedAngularImpulse;
-        const Tree& tree = m_trees[link.m_tree];
-        for (int row = 0; row < 6; ++row)
-            for (int k = 0; k < tree.m_coordinates; ++k)
-                m_beyondDeltas[tree.m_first + k] += double(m_answer[link.m_first + row * tree.m_coordinates + k]) *
-                                                    (row < 3 ? impulse[row] : angular[row - 3]);
-    }
-    for (const Tree& tree : m_trees)
-    {
-        const int first = tree.m_body->getCompanionId();
-        for (int k = 0; first >= 0 && k < tree.m_coordinates; ++k)
-        {
-            const double exact = changeIn(tree, k);
-            (*m_deltas)[first + k] = static_cast<btScalar>(exact);
-            m_beyondDeltas[tree.m_first + k] = exact - double((*m_deltas)[first + k]);
-        }
-    }
 }
 
 }  // namespace bullet_fem

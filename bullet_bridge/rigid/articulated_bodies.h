@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bullet_bridge/rigid/articulated_history.h"
@@ -12,7 +13,8 @@
 namespace bullet_fem
 {
 
-/// Bullet's multibodies with links that are in contact with soft bodies or held by them. In joint coordinates q an
+/// Bullet's multibodies with links that are in contact with soft bodies or held by them, or with rows of Bullet's that
+/// are solved with soft bodies. In joint coordinates q an
 /// impulse f and an angular impulse t on link a change the velocities by
 ///     dq' = M^-1 J_a^T (t, f)        and link b moves by J_b dq'
 /// with M from Bullet's articulated body algorithm at the present pose. An impulse on one link thus moves all links of
@@ -38,15 +40,6 @@ public:
     /// Forgets all links.
     void clear();
 
-    /// Call within Bullet's rigid solver once its rows are set up. `deltas` are the changes of the multibodies'
-    /// velocities by the rows, indexed by companion id. Impulses of soft bodies are added to them, so that Bullet's
-    /// rows see these; apply() hands them to the multibodies.
-    void beginSolve(btAlignedObjectArray<btScalar>& deltas);
-    /// Sets the rigid proxies' velocities to the present ones of the links.
-    void readSolved(std::vector<RigidProxy>& rigidProxies) const;
-    /// Adds the impulses that the rigid proxies got since beginSolve() or the last call.
-    void writeSolved(const std::vector<RigidProxy>& rigidProxies);
-
     /// Makes rigid proxy `index` that of a movable link, and returns the link's present velocity. The proxy's velocity
     /// is the predicted one without soft bodies: forces, gravity and Coriolis terms act for `step` [s], and contacts,
     /// motors and limits support each joint as in this step, as far as they balance the forces and the last impulses of
@@ -58,10 +51,28 @@ public:
     /// link.
     void setCenter(int index, const Vec3& center);
 
+    /// Adds a proxy `index` whose velocity is J q' in three rows; `answers` are the rows of J M^-1. Null rows are 0. An
+    /// impulse on it along axis k acts by row k.
+    void addRows(int index, btMultiBody& body, const std::array<const btScalar*, 3>& jacobians,
+                 const std::array<const btScalar*, 3>& answers, RigidProxy& rigidProxy);
+
+    /// Adds a proxy `index` whose motion is that of link `a` at its `point` [m] less that of link `b` of the same
+    /// multibody at the proxy's centre.
+    void addBetween(int index, const btMultiBodyLinkCollider& a, const Vec3& point, const btMultiBodyLinkCollider& b,
+                    RigidProxy& rigidProxy);
+
+    /// Lets go of the rigid proxies from `first` on: apply() takes their position corrections from `rigidProxies` as
+    /// they are now.
+    void letGo(int first, const std::vector<RigidProxy>& rigidProxies);
+
     /// Writes the links' responses to impulses. Call after all links are added, and again after more are added.
     void connect(std::vector<RigidProxy>& rigidProxies, std::vector<RigidResponse>& responses) const;
 
     bool isEmpty() const { return m_links.empty(); }
+
+    /// True if forces alone changed the velocity of the link's multibody in this step: no contact, motor, limit or
+    /// joint acts on it. Only after add() with a step.
+    bool isFree(int index) const;
 
     /// Adds an impulse [N s] and an angular impulse [N m s] about the centre of rigid proxy `index`. Ignored if that is
     /// no link.
@@ -72,23 +83,28 @@ public:
     void apply(const std::vector<RigidProxy>& rigidProxies, double step);
 
 private:
+    friend class LinkDeltas;
+
     struct Tree
     {
         btMultiBody* m_body;
         int m_coordinates;    // base: three angular, three linear; then the joints
         std::size_t m_first;  // in m_velocity, m_freeVelocity
+        bool m_isFree;        // forces alone changed its velocity
     };
     struct Link
     {
-        int m_rigidProxy, m_tree;
-        int m_index;          // of the link in its multibody; -1: the base
+        int m_rigidProxy;  // -1: let go
+        int m_tree;
+        int m_index;          // of the link in its multibody; -1: the base; not read if it has rows of Bullet's
         std::size_t m_first;  // of its six rows in m_jacobian and m_answer: three of velocity, three of spin
         Vec3 m_impulse, m_angularImpulse;
-        Vec3 m_accumulatedImpulse, m_accumulatedAngularImpulse;  // of the rigid proxy, when it was written last
+        Vec3 m_push, m_angularPush;  // impulses of the position correction, if it was let go
     };
 
     int treeOf(btMultiBody& body, double step);
-    double changeIn(const Tree& tree, int k) const;
+    Link& addLink(int index, int tree, int link);
+    void setProxy(const Link& link, RigidProxy& rigidProxy) const;
     RigidResponse response(const Link& moved, const Link& pushed) const;
     LinkMotion motion(const Link& link, const std::vector<double>& velocity) const;
     bool solve(const Tree& tree, int number, const std::vector<RigidProxy>* pushed);
@@ -98,14 +114,11 @@ private:
     MultiBodyDynamics m_dynamics;
     std::vector<Tree> m_trees;
     std::vector<Link> m_links;
-    std::vector<double> m_velocity, m_freeVelocity;      // per tree, per coordinate
-    btAlignedObjectArray<btScalar>* m_deltas = nullptr;  // Bullet's array
-    std::vector<double> m_beyondDeltas;          // per tree, per coordinate: part of the applied change that is not in
-                                                 // *m_deltas
-    mutable std::vector<double> m_solved;        // scratch of readSolved
-    std::vector<btScalar> m_jacobian, m_answer;  // J, and J M^-1
-    std::vector<double> m_force;                 // generalized force on one tree
-    std::vector<btScalar> m_impulse, m_change;   // scratch per coordinate of one tree
+    std::vector<double> m_velocity, m_freeVelocity;  // per tree, per coordinate
+    std::vector<btScalar> m_jacobian, m_answer;      // J, and J M^-1
+    std::vector<btScalar> m_other, m_otherAnswer;    // scratch of addBetween: rows of the other link
+    std::vector<double> m_force;                     // generalized force on one tree
+    std::vector<btScalar> m_impulse, m_change;       // scratch per coordinate of one tree
 };
 
 }  // namespace bullet_fem

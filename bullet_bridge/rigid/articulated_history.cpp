@@ -10,6 +10,14 @@
 
 namespace bullet_fem
 {
+namespace
+{
+
+// A velocity change differs from that by forces by rounding, and because accelerations are known at the end of the
+// step, when joints have turned: shares of the change by forces, and of the speeds before and after [-].
+constexpr double kOfForces = 0.1, kOfSpeeds = 1e-3;
+
+}  // namespace
 
 void ArticulatedHistory::beginStep()
 {
@@ -39,22 +47,25 @@ void ArticulatedHistory::reserve(const btMultiBody& body, std::size_t bodies, st
     memoryOf(body);
 }
 
-void ArticulatedHistory::addSupport(const btMultiBody& body, double step, const std::vector<double>& acceleration,
+bool ArticulatedHistory::addSupport(const btMultiBody& body, double step, const std::vector<double>& acceleration,
                                     const double* velocity, double* freeVelocity)
 {
     const auto before =
         std::find_if(m_before.begin(), m_before.end(), [&](const Before& b) { return b.m_body == &body; });
-    if (before == m_before.end()) return;
+    if (before == m_before.end()) return false;
     const double* noted = &m_beforeVelocity[before->m_first];
     const Memory& memory = memoryOf(body);
     const auto needed = [&](int k) { return -(step * acceleration[k] + memory.m_given[k]); };
+    bool isFree = true;
     const auto support = [&](int first, int count)
     {
         double done = 0, whole = 0;
         for (int k = first; k < first + count; ++k)
         {
-            const double byForces = m_forcesGiven ? 0 : step * acceleration[k];
-            done += (velocity[k] - noted[k] - byForces) * needed(k);
+            const double byForces = m_forcesGiven ? 0 : step * acceleration[k], byBullet = velocity[k] - noted[k];
+            const double speeds = std::abs(velocity[k]) + std::abs(noted[k]);
+            isFree = isFree && std::abs(byBullet - byForces) <= kOfForces * std::abs(byForces) + kOfSpeeds * speeds;
+            done += (byBullet - byForces) * needed(k);
             whole += needed(k) * needed(k);
         }
         if (!(whole > 0)) return;
@@ -64,6 +75,7 @@ void ArticulatedHistory::addSupport(const btMultiBody& body, double step, const 
     support(0, 3);
     support(3, 3);
     for (int k = kBaseCoordinates; k < kBaseCoordinates + body.getNumDofs(); ++k) support(k, 1);
+    return isFree;
 }
 
 void ArticulatedHistory::addVelocity(btMultiBody& body, const std::vector<btScalar>& change)

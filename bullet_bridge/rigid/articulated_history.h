@@ -30,8 +30,9 @@ public:
     /// Reserves memory that a later step may need for a multibody, and for the velocities of all.
     void reserve(const btMultiBody& body, std::size_t bodies, std::size_t coordinates);
 
-    /// Adds the support by contacts, motors and limits in `step` [s] to `freeVelocity`, all per coordinate.
-    void addSupport(const btMultiBody& body, double step, const std::vector<double>& acceleration,
+    /// Adds the support by contacts, motors and limits in `step` [s] to `freeVelocity`, all per coordinate. True if
+    /// there was none: forces alone changed the velocity.
+    bool addSupport(const btMultiBody& body, double step, const std::vector<double>& acceleration,
                     const double* velocity, double* freeVelocity);
 
     /// Adds a change to the multibody's velocity with a single rounding.

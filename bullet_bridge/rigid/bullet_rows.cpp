@@ -15,9 +15,6 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kBulletUnlimited = 1e30;  // Bullet writes no limit as FLT_MAX or DBL_MAX [N s]
-constexpr double kIsotropic = 1e-4;        // deviation of directions of friction from unit vectors that is rounding [-]
-
 // Bullet's rolling friction grows with the normal impulse only up to this one
 // (btSequentialImpulseConstraintSolver::solveSingleIteration) [N s].
 constexpr double kMaxRollingLoad = 1;
@@ -37,39 +34,11 @@ Vec3 directionOf(const btSolverConstraint& row)
     return row.m_contactNormal1.length2() > 0 ? vec3(row.m_contactNormal1) : -vec3(row.m_contactNormal2);
 }
 
-// The target of J v + y lambda beyond J v0 [m/s] or [rad/s]; false if it is not finite.
-bool targetBeyond(const btSolverConstraint& row, double& beyond)
-{
-    const double diagonal = double(row.m_jacDiagABInv);
-    beyond = double(row.m_rhs) / diagonal;
-    return diagonal > 0 && std::isfinite(beyond) && std::isfinite(double(row.m_cfm));
-}
-
-double complianceOf(const btSolverConstraint& row)
-{
-    return std::max(0.0, double(row.m_cfm) / double(row.m_jacDiagABInv));
-}
-
-// Components of the part of a vector in the plane of d and e, which need not be orthogonal.
-void split(const Vec3& v, const Vec3& d, const Vec3& e, double& first, double& second)
-{
-    const double a = dot(d, d), b = dot(d, e), c = dot(e, e), det = a * c - b * b;
-    const bool isPlane = det > kIsotropic * a * c;
-    first = isPlane ? (c * dot(v, d) - b * dot(v, e)) / det : a > 0 ? dot(v, d) / a : 0;
-    second = isPlane ? (a * dot(v, e) - b * dot(v, d)) / det : !(a > 0) && c > 0 ? dot(v, e) / c : 0;
-}
-
-Vec3 velocityAt(const Vec3& linear, const Vec3& angular, const Vec3& arm)
-{
-    return linear + cross(angular, arm);
-}
-
 }  // namespace
 
-BulletRows::Side BulletRows::sideOf(const BulletConstraints& bullet, int solverBody,
-                                    const std::vector<int>& proxyOf) const
+RowSide sideOf(const BulletConstraints& bullet, int solverBody, const std::vector<int>& proxyOf)
 {
-    Side side;
+    RowSide side;
     const btSolverBody& body = bullet.m_bodies[solverBody];
     side.m_proxy = proxyOf[solverBody];
     if (!body.m_originalBody) return side;
@@ -88,8 +57,8 @@ void BulletRows::append(const BulletConstraints& bullet, const std::vector<int>&
     m_contacts.clear();
     m_torsions.clear();
     m_axes.clear();
-    m_anyBad = false;
     m_contactOf.assign(bullet.m_contacts.size(), -1);
+    m_anyBad = false;
     for (int k = 0; k < bullet.m_bodies.size(); ++k)
     {
         bullet.m_bodies[k].m_deltaLinearVelocity.setZero();
@@ -105,9 +74,9 @@ void BulletRows::appendContact(const BulletConstraints& bullet, int k, const std
 {
     const btSolverConstraint& row = bullet.m_contacts[k];
     const btManifoldPoint& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
-    Side first = sideOf(bullet, row.m_solverBodyIdA, proxyOf), second = sideOf(bullet, row.m_solverBodyIdB, proxyOf);
+    RowSide first = sideOf(bullet, row.m_solverBodyIdA, proxyOf), second = sideOf(bullet, row.m_solverBodyIdB, proxyOf);
     Vec3 at = vec3(point.getPositionWorldOnA()), atSecond = vec3(point.getPositionWorldOnB());
-    Contact contact;
+    RowOfContact contact;
     contact.m_row = k;
     if (first.m_proxy < 0)
     {
@@ -120,18 +89,8 @@ void BulletRows::appendContact(const BulletConstraints& bullet, int k, const std
     const bool isBad = !targetBeyond(row, beyond);
     m_anyBad = m_anyBad || isBad || row.m_cfm < 0;
     if (isBad) return;
-    RigidContact touch;
-    touch.m_rigidProxy = first.m_proxy;
-    touch.m_other = second.m_proxy;
-    touch.m_normal = contact.m_sign * vec3(point.m_normalWorldOnB);
-    touch.m_arm = at - first.m_center;
-    touch.m_otherArm = atSecond - second.m_center;
-    const Vec3 ofSecond = velocityAt(second.m_linear, second.m_angular, touch.m_otherArm);
-    const Vec3 relative = velocityAt(first.m_linear, first.m_angular, touch.m_arm) - ofSecond;
-    touch.m_leastSpeed = beyond + dot(touch.m_normal, relative);
+    RigidContact touch = contactOf(first, second, at, atSecond, contact.m_sign * vec3(point.m_normalWorldOnB), beyond);
     touch.m_gap = double(point.getDistance());
-    if (second.m_proxy < 0) touch.m_otherVelocity = ofSecond;
-    touch.m_isSupport = second.m_proxy < 0 && dot(ofSecond, ofSecond) == 0;
     touch.m_compliance = complianceOf(row);
     touch.m_impulse = impulseOf(row) * touch.m_normal;
     setFriction(bullet, row, contact, touch);
@@ -140,45 +99,29 @@ void BulletRows::appendContact(const BulletConstraints& bullet, int k, const std
     problem.m_rigidContacts.push_back(touch);
 }
 
-// The cone for Bullet's pyramid. Directions d of anisotropic friction, no unit vectors, span an ellipse, whose axes are
-// the eigenvectors of d1 d1^T + d2 d2^T. Belts run with the motion that a program gave the contact point; if that is
-// not finite, there is no friction.
-void BulletRows::setFriction(const BulletConstraints& bullet, const btSolverConstraint& row, Contact& contact,
+// Belts run with the motion that a program gave the contact point; if that is not finite, there is no friction.
+void BulletRows::setFriction(const BulletConstraints& bullet, const btSolverConstraint& row, RowOfContact& contact,
                              RigidContact& touch) const
 {
     const btManifoldPoint& point = *static_cast<const btManifoldPoint*>(row.m_originalContactPoint);
-    touch.m_friction = std::max(0.0, double(row.m_friction));
+    const double coefficient = std::max(0.0, double(row.m_friction));
+    touch.m_friction = coefficient;
     if (row.m_frictionIndex + 1 >= bullet.m_friction.size()) return;
-    // Bullet scales directions along the axes of bodies, which may tilt them out of the tangent plane.
-    const auto tangential = [&touch](const Vec3& v) { return v - dot(v, touch.m_normal) * touch.m_normal; };
-    const Vec3 d = tangential(directionOf(bullet.m_friction[row.m_frictionIndex])),
-               e = tangential(directionOf(bullet.m_friction[row.m_frictionIndex + 1]));
-    const Vec3 motion = double(point.m_contactMotion1) * d + double(point.m_contactMotion2) * e;
+    const FrictionPlane plane(touch.m_normal, directionOf(bullet.m_friction[row.m_frictionIndex]),
+                              directionOf(bullet.m_friction[row.m_frictionIndex + 1]));
+    const Vec3 motion =
+        double(point.m_contactMotion1) * plane.m_first + double(point.m_contactMotion2) * plane.m_second;
     if (!isFinite(motion))
     {
         touch.m_friction = 0;
         return;
     }
-    contact.m_first = d;
-    contact.m_second = e;
+    contact.m_plane = plane;
     if (impulseOf(row) > 0)
-        touch.m_impulse +=
-            contact.m_sign * (double(point.m_appliedImpulseLateral1) * d + double(point.m_appliedImpulseLateral2) * e);
+        touch.m_impulse += contact.m_sign * (double(point.m_appliedImpulseLateral1) * plane.m_first +
+                                             double(point.m_appliedImpulseLateral2) * plane.m_second);
     touch.m_otherVelocity += contact.m_sign * motion;
-    const double a = dot(d, d), b = dot(d, e), c = dot(e, e);
-    if (std::fabs(a - 1) < kIsotropic && std::fabs(c - 1) < kIsotropic && std::fabs(b) < kIsotropic) return;
-    // Larger eigenvalue of the Gram matrix; its eigenvector combines d and e to the larger semi-axis.
-    const double half = 0.5 * (a - c), most = 0.5 * (a + c) + std::hypot(half, b);
-    const double least = std::max(0.0, a + c - most);
-    const Vec3 axis = half >= 0 ? (most - c) * d + b * e : b * d + (most - a) * e;
-    if (!(norm(axis) > 0))
-    {
-        touch.m_friction = most > 0 ? std::sqrt(most) * touch.m_friction : 0;
-        return;
-    }
-    touch.m_friction *= std::sqrt(most);
-    touch.m_aspect = std::sqrt(least / most);
-    touch.m_slipAxis = (1 / norm(axis)) * axis;
+    plane.setCone(coefficient, touch);
 }
 
 // The rows of one contact are consecutive: about its normal, then about tangents.
@@ -192,24 +135,17 @@ void BulletRows::appendTorsions(const BulletConstraints& bullet, const std::vect
         while (end < count && bullet.m_torsions[end].m_frictionIndex == contact) ++end;
         if (m_contactOf[contact] < 0) continue;
         RigidContact& touch = problem.m_rigidContacts[m_firstContact + m_contactOf[contact]];
-        TorsionalFriction torsion;
-        torsion.m_body = -1;
-        torsion.m_firstRigidProxy = touch.m_rigidProxy;
-        torsion.m_rigidProxy = touch.m_other;
-        torsion.m_maxLoad = kMaxRollingLoad;
-        torsion.m_lever = norm(touch.m_arm);
-        torsion.m_axes[0] = touch.m_normal;
-        torsion.m_friction.x = double(bullet.m_torsions[begin].m_friction);
-        Vec3 tangent = cross(std::fabs(touch.m_normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, touch.m_normal);
-        for (int k = begin + 1; k < std::min(end, begin + 3); ++k)
+        RollingFriction rolling;
+        rolling.m_maxLoad = kMaxRollingLoad;
+        rolling.m_lever = norm(touch.m_arm);
+        rolling.m_spinning = double(bullet.m_torsions[begin].m_friction);
+        for (int k = begin + 1; k < std::min(end, begin + 3); ++k, ++rolling.m_count)
         {
-            const Vec3 axis = vec3(bullet.m_torsions[k].m_relpos2CrossNormal);
-            if (k == begin + 1) tangent = axis - dot(axis, touch.m_normal) * touch.m_normal;
-            torsion.m_friction[k - begin] = norm(axis) * double(bullet.m_torsions[k].m_friction);
+            rolling.m_axes[rolling.m_count] = vec3(bullet.m_torsions[k].m_relpos2CrossNormal);
+            rolling.m_rolling[rolling.m_count] = double(bullet.m_torsions[k].m_friction);
         }
-        if (!(norm(tangent) > 0)) continue;
-        torsion.m_axes[1] = (1 / norm(tangent)) * tangent;
-        torsion.m_axes[2] = cross(torsion.m_axes[0], torsion.m_axes[1]);
+        TorsionalFriction torsion;
+        if (!rolling.set(touch, torsion)) continue;
         const btSolverConstraint& row = bullet.m_torsions[begin];
         const int other =
             touch.m_rigidProxy == proxyOf[row.m_solverBodyIdA] ? row.m_solverBodyIdB : row.m_solverBodyIdA;
@@ -228,7 +164,8 @@ void BulletRows::appendJoints(const BulletConstraints& bullet, const std::vector
     for (int k = 0; k < bullet.m_joints.size(); ++k)
     {
         const btSolverConstraint& row = bullet.m_joints[k];
-        const Side a = sideOf(bullet, row.m_solverBodyIdA, proxyOf), b = sideOf(bullet, row.m_solverBodyIdB, proxyOf);
+        const RowSide a = sideOf(bullet, row.m_solverBodyIdA, proxyOf),
+                      b = sideOf(bullet, row.m_solverBodyIdB, proxyOf);
         if (a.m_proxy < 0 && b.m_proxy < 0) continue;
         double beyond = 0;
         const bool isBad = !targetBeyond(row, beyond) || !(row.m_lowerLimit <= row.m_upperLimit);
@@ -251,21 +188,16 @@ void BulletRows::appendJoints(const BulletConstraints& bullet, const std::vector
             problem.m_joints.push_back(joint);
         }
         Joint& joint = problem.m_joints.back();
-        Axis of = {k, static_cast<int>(problem.m_joints.size() - 1), axis, 1};
-        const bool isTurned = -row.m_lowerLimit > row.m_upperLimit;
-        double upper = double(isTurned ? -row.m_lowerLimit : row.m_upperLimit);
-        double lower = double(isTurned ? -row.m_upperLimit : row.m_lowerLimit);
-        if (upper >= kBulletUnlimited) upper = Joint::kUnlimited;
-        if (lower <= -kBulletUnlimited) lower = -Joint::kUnlimited;
-        if (isTurned) of.m_sign = -1;
+        const RowLimits limits(double(row.m_lowerLimit), double(row.m_upperLimit));
+        const RowOfAxis of = {k, static_cast<int>(problem.m_joints.size() - 1), axis, limits.m_sign};
         const Vec3 linearA = vec3(row.m_contactNormal1), angularA = vec3(row.m_relpos1CrossNormal);
         const Vec3 linearB = vec3(row.m_contactNormal2), angularB = vec3(row.m_relpos2CrossNormal);
         double target = beyond;
         if (a.m_proxy >= 0) target += dot(linearA, a.m_linear) + dot(angularA, a.m_angular);
         if (b.m_proxy >= 0) target += dot(linearB, b.m_linear) + dot(angularB, b.m_angular);
         joint.m_wanted[axis] = of.m_sign * target;
-        joint.m_limit[axis] = upper;
-        joint.m_lower[axis] = lower;
+        joint.m_limit[axis] = limits.m_upper;
+        joint.m_lower[axis] = limits.m_lower;
         RigidJacobian &ofA = problem.m_jacobians[joint.m_a.m_jacobian],
                       &ofB = problem.m_jacobians[joint.m_b.m_jacobian];
         for (int i = 0; i < 3; ++i)
@@ -285,14 +217,14 @@ void BulletRows::takeBack(const BulletConstraints& bullet, ContactProblem& probl
 {
     for (std::size_t k = 0; k < m_contacts.size(); ++k)
     {
-        const Contact& contact = m_contacts[k];
+        const RowOfContact& contact = m_contacts[k];
         const RigidContact& touch = problem.m_rigidContacts[m_firstContact + k];
         const Vec3 onA = contact.m_sign * touch.m_impulse;
         btSolverConstraint& row = bullet.m_contacts[contact.m_row];
         row.m_appliedImpulse = btScalar(dot(touch.m_impulse, touch.m_normal));
         if (row.m_frictionIndex + 1 >= bullet.m_friction.size()) continue;
         double first = 0, second = 0;
-        split(onA, contact.m_first, contact.m_second, first, second);
+        contact.m_plane.split(onA, first, second);
         bullet.m_friction[row.m_frictionIndex].m_appliedImpulse = btScalar(first);
         bullet.m_friction[row.m_frictionIndex + 1].m_appliedImpulse = btScalar(second);
     }
@@ -306,7 +238,7 @@ void BulletRows::takeBack(const BulletConstraints& bullet, ContactProblem& probl
             row.m_appliedImpulse = btScalar(dot(axis, axis) > 0 ? dot(onA, axis) / dot(axis, axis) : 0);
         }
     }
-    for (const Axis& axis : m_axes)
+    for (const RowOfAxis& axis : m_axes)
         bullet.m_joints[axis.m_row].m_appliedImpulse =
             btScalar(axis.m_sign * problem.m_joints[axis.m_joint].m_impulse[axis.m_axis]);
     problem.m_rigidContacts.resize(m_firstContact);

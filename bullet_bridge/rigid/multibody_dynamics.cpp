@@ -52,6 +52,15 @@ void wakeIfAsleep(btMultiBody& body)
     for (int k = 0; k < body.getNumLinks(); ++k) activate(body.getLinkCollider(k));
 }
 
+LinkMotion motionOf(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch)
+{
+    const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
+    if (scratch.size() < 2 * count) scratch.resize(2 * count);
+    link.m_multiBody->compTreeLinkVelocities(&scratch[0], &scratch[count]);
+    const btMatrix3x3& fromLink = link.getWorldTransform().getBasis();
+    return {vec3(fromLink * scratch[count + k]), vec3(fromLink * scratch[k])};
+}
+
 void setVelocity(btMultiBody& body, const std::vector<btScalar>& velocity)
 {
     body.setBaseOmega(btVector3(velocity[0], velocity[1], velocity[2]));

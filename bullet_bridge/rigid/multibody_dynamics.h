@@ -6,6 +6,7 @@
 
 #include "LinearMath/btAlignedObjectArray.h"
 #include "LinearMath/btMatrix3x3.h"
+#include "bullet_bridge/rigid/rigid_objects.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 class btMultiBody;
@@ -26,6 +27,9 @@ bool sleeps(const btMultiBody& body);
 
 /// Wakes a multibody that sleeps. One that is only about to sleep decides by its own motion.
 void wakeIfAsleep(btMultiBody& body);
+
+/// Velocity of a link's centre and its spin. `scratch` grows with the number of links.
+LinkMotion motionOf(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch);
 
 /// Sets the velocity of all coordinates: base, then joints.
 void setVelocity(btMultiBody& body, const std::vector<btScalar>& velocity);

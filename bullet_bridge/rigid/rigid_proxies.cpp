@@ -30,17 +30,6 @@ RigidProxy immovable(const btCollisionObject& object)
     return rigidProxy;
 }
 
-// Sets the motion of a multibody's link that impulses do not move. `scratch` grows with the number of links.
-void setLinkVelocity(const btMultiBodyLinkCollider& link, std::vector<btVector3>& scratch, RigidProxy& rigidProxy)
-{
-    const std::size_t count = link.m_multiBody->getNumLinks() + 1, k = link.m_link + 1;
-    if (scratch.size() < 2 * count) scratch.resize(2 * count);
-    link.m_multiBody->compTreeLinkVelocities(&scratch[0], &scratch[count]);
-    const btMatrix3x3& fromLink = link.getWorldTransform().getBasis();
-    rigidProxy.m_angularVelocity = vec3(fromLink * scratch[k]);
-    rigidProxy.m_linearVelocity = vec3(fromLink * scratch[count + k]);
-}
-
 // Removes from a velocity change its component against the direction in which a body is held.
 Vec3 heldBack(const Vec3& change, const Vec3& holding)
 {
@@ -126,7 +115,11 @@ int RigidProxies::indexOf(const btCollisionObject& object, double step)
     if (link && canMove(*link))
         m_sources.back().m_now = m_links.add(index, *link, m_phase == RigidPhase::moved ? step : 0, rigidProxy);
     else if (link)
-        setLinkVelocity(*link, m_linkVelocities, rigidProxy);
+    {
+        const LinkMotion led = motionOf(*link, m_linkVelocities);
+        rigidProxy.m_linearVelocity = led.m_linear;
+        rigidProxy.m_angularVelocity = led.m_angular;
+    }
     if (const btRigidBody* body = movableBody(object))
     {
         const Mat3 factor = {{{body->getAngularFactor().x(), 0, 0},
@@ -185,8 +178,8 @@ int RigidProxies::indexForJoint(const btCollisionObject& object, double step)
     const bool isKnown = find(object) >= 0;
     const int index = indexOf(object, step);
     const btRigidBody* body = movableBody(object);
-    const bool canRewind = body && body->getNumConstraintRefs() == 0 && object.getHitFraction() != 0;
-    if (!isKnown && m_phase == RigidPhase::moved && canRewind) rewind(index, step);
+    const bool canRewind = body ? body->getNumConstraintRefs() == 0 : m_links.isFree(index);
+    if (!isKnown && m_phase == RigidPhase::moved && canRewind && object.getHitFraction() != 0) rewind(index, step);
     return index;
 }
 

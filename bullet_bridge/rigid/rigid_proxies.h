@@ -53,8 +53,9 @@ public:
     /// exists already in this step is returned unchanged.
     int indexForContact(const btCollisionObject& object, double step, const Body& soft);
 
-    /// indexOf() for joints. In phase `moved`, a rigid body without Bullet's own joints is rewound: the joint
-    /// constrains the position at the end of the step, and a stiff joint that reacts one step late becomes unstable.
+    /// indexOf() for joints. In phase `moved`, a rigid body without Bullet's own joints is rewound, and a link on whose
+    /// multibody Bullet's solver did not act: the joint constrains the position at the end of the step, and a stiff
+    /// joint that reacts one step late becomes unstable.
     int indexForJoint(const btCollisionObject& object, double step);
 
     /// indexOf() for an object in contact with rigid proxy `neighbour` by Bullet; it is rewound if the neighbour is.

@@ -13,8 +13,8 @@ void SolverBodies::begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>
                          btAlignedObjectArray<btScalar>* linkDeltas)
 {
     m_pool = &pool;
-    m_multiBodies = linkDeltas && !rigid.links().isEmpty() ? &rigid.links() : nullptr;
-    if (m_multiBodies) m_multiBodies->beginSolve(*linkDeltas);
+    m_hasLinks = linkDeltas && !rigid.links().isEmpty();
+    if (m_hasLinks) m_linkDeltas.begin(rigid.links(), *linkDeltas);
     m_links.assign(rigid.rigidProxies().size(), Link());
     m_proxyOf.assign(pool.size(), -1);
     for (std::size_t k = 0; k < m_links.size(); ++k)
@@ -43,7 +43,7 @@ void SolverBodies::read(std::vector<RigidProxy>& rigidProxies)
         rigidProxies[k].m_linearVelocity = link.m_linear;
         rigidProxies[k].m_angularVelocity = link.m_angular;
     }
-    if (m_multiBodies) m_multiBodies->readSolved(rigidProxies);
+    if (m_hasLinks) m_linkDeltas.read(rigidProxies);
 }
 
 void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
@@ -58,7 +58,7 @@ void SolverBodies::write(const std::vector<RigidProxy>& rigidProxies)
         body.m_deltaAngularVelocity = addedExactly(
             body.m_deltaAngularVelocity, rigidProxies[k].m_angularVelocity - link.m_angular, link.m_angularRemainder);
     }
-    if (m_multiBodies) m_multiBodies->writeSolved(rigidProxies);
+    if (m_hasLinks) m_linkDeltas.write(rigidProxies);
 }
 
 void SolverBodies::end(RigidProxies& rigid)

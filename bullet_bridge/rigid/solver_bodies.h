@@ -6,6 +6,7 @@
 
 #include "BulletDynamics/ConstraintSolver/btSolverBody.h"
 #include "LinearMath/btAlignedObjectArray.h"
+#include "bullet_bridge/rigid/link_deltas.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
 
 namespace bullet_fem
@@ -19,7 +20,7 @@ class SolverBodies
 public:
     /// Call after the solver has set up its bodies: rigid proxy k is then solver body
     /// movableBody(rigid.object(k))->getCompanionId() of `pool`. Starts with the rounding errors of the last step.
-    /// `linkDeltas`: see ArticulatedBodies::beginSolve; null for a solver without multibodies.
+    /// `linkDeltas`: see LinkDeltas::begin; null for a solver without multibodies.
     void begin(RigidProxies& rigid, btAlignedObjectArray<btSolverBody>& pool,
                btAlignedObjectArray<btScalar>* linkDeltas);
 
@@ -44,7 +45,8 @@ private:
     };
 
     btAlignedObjectArray<btSolverBody>* m_pool = nullptr;
-    ArticulatedBodies* m_multiBodies = nullptr;  // null: there are none
+    bool m_hasLinks = false;
+    LinkDeltas m_linkDeltas;
     std::vector<Link> m_links;
     std::vector<int> m_proxyOf;
 };

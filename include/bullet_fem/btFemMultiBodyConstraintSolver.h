@@ -13,7 +13,7 @@ class btFemIslandSolver;
 class btFemSoftBodySolver;
 
 /// The counterpart of btFemConstraintSolver for btSoftMultiBodyDynamicsWorld: Bullet's solver of rigid bodies and
-/// multibodies, with contacts and joints of FEM bodies swept together with those between rigid bodies and links and
+/// multibodies, with contacts and joints of FEM bodies solved together with those between rigid bodies and links and
 /// with motors, limits and loops of multibodies. A gripper made of links presses with the force of its motors within
 /// the step. Give it to the world's constructor in place of btMultiBodyConstraintSolver, with the world's
 /// btFemSoftBodySolver. Islands without FEM bodies give bitwise equal results. In islands with FEM bodies Bullet's rows
@@ -38,7 +38,7 @@ public:
                              btDispatcher* dispatcher) override;
 
 protected:
-    /// Called by Bullet's solver for a group: sweeps its rows and those of the FEM bodies in outer iterations. Returns
+    /// Called by Bullet's solver for a group: solves its rows and those of the FEM bodies as one problem. Returns
     /// 0.
     btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int numBodies,
                                                btPersistentManifold** manifolds, int numManifolds,

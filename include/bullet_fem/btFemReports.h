@@ -76,8 +76,9 @@ enum btFemFlags
     /// rest shape differs (scaled, or changed elements).
     BT_FEM_BAKED_UNUSED = 1 << 21,
     /// At the beginning of the step an object was deeper inside the body, or the body inside an object, than a
-    /// hundredth of the body's size (the cube root of its volume): it started there, or is crushed. Take a stiffer
-    /// material, a finer mesh or smaller steps.
+    /// hundredth of the body's size (the cube root of its volume), or the middle of a solid object was inside the body,
+    /// which then never sleeps: it started there, or is crushed. Take a stiffer material, a finer mesh or smaller
+    /// steps.
     BT_FEM_PENETRATING = 1 << 22,
     /// Some elements are inverted, or were within the last 32 steps: the body is crushed or twisted beyond the range of
     /// its elements, and its shape at rest may not be an equilibrium of its material. Take a stiffer material, a

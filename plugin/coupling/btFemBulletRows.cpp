@@ -8,7 +8,6 @@ void btFemBulletRows::forEach(const Visit& visit) const
     for (btConstraintArray* rows :
          {&m_constraints.m_joints, &m_constraints.m_contacts, &m_constraints.m_friction, &m_constraints.m_torsions})
         for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
-    if (!m_linkData) return;
     for (btMultiBodyConstraintArray* rows : m_links)
         for (int k = 0; k < rows->size(); ++k) visit((*rows)[k]);
 }
@@ -56,8 +55,9 @@ void btFemBulletRows::changeBody(int body, const btVector3& linear, const btVect
     solverBody.internalApplyImpulse(linear * solverBody.internalGetInvMass(), angular, impulse);
 }
 
-void btFemBulletRows::changeLinks(const btMultiBody& body, int jacobian, int first, btScalar impulse) const
+void btFemBulletRows::changeLinks(btMultiBody& body, int jacobian, int first, btScalar impulse) const
 {
+    body.applyDeltaVeeMultiDof2(&m_linkData.m_deltaVelocitiesUnitImpulse[jacobian], impulse);
     for (int k = 0; k < body.getNumDofs() + 6; ++k)
-        m_linkData->m_deltaVelocities[first + k] += m_linkData->m_deltaVelocitiesUnitImpulse[jacobian + k] * impulse;
+        m_linkData.m_deltaVelocities[first + k] += m_linkData.m_deltaVelocitiesUnitImpulse[jacobian + k] * impulse;
 }

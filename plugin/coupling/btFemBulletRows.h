@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -12,16 +11,9 @@
 /// The rows of Bullet's constraint solvers: those between rigid bodies, then those of links. A view.
 struct btFemBulletRows
 {
-    bullet_fem::BulletConstraints m_constraints;              ///< of rigid bodies
-    btMultiBodyJacobianData* m_linkData = nullptr;            ///< null: a solver without multibodies
-    std::array<btMultiBodyConstraintArray*, 5> m_links = {};  ///< of a solver with multibodies
-
-    /// True if there are rows of multibodies.
-    bool hasLinks() const
-    {
-        return m_linkData && std::any_of(m_links.begin(), m_links.end(),
-                                         [](const btMultiBodyConstraintArray* rows) { return rows->size() > 0; });
-    }
+    bullet_fem::BulletConstraints m_constraints;  ///< of rigid bodies
+    btMultiBodyJacobianData& m_linkData;
+    std::array<btMultiBodyConstraintArray*, 5> m_links;
 
     /// Writes the impulses of all rows [N s] to `noted`. Allocates when there are more than ever.
     void note(std::vector<btScalar>& noted) const;
@@ -33,7 +25,7 @@ private:
     void change(btSolverConstraint& row, btScalar impulse) const;
     void change(btMultiBodySolverConstraint& row, btScalar impulse) const;
     void changeBody(int body, const btVector3& linear, const btVector3& angular, btScalar impulse) const;
-    void changeLinks(const btMultiBody& body, int jacobian, int first, btScalar impulse) const;
+    void changeLinks(btMultiBody& body, int jacobian, int first, btScalar impulse) const;
     template <class Visit>
     void forEach(const Visit& visit) const;
 };

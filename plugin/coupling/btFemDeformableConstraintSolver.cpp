@@ -69,18 +69,19 @@ btScalar btFemDeformableConstraintSolver::solveDeformableGroupIterations(
                                                   numManifolds, constraints, numConstraints, info, debugDrawer);
     const auto isFem = [this](const btCollisionObject* body)
     { return m_deformable->fem().isFem(btSoftBody::upcast(body)); };
-    const bool others = !std::all_of(deformableBodies, deformableBodies + numDeformableBodies, isFem);
     const auto sweep = [&](int iteration)
     {
         const btScalar rigid = solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints,
                                                     numConstraints, info, debugDrawer);
-        if (!others) return rigid;
         solverBodyWriteBack(info);
         const btScalar soft = m_deformable->solveContactConstraints(deformableBodies, numDeformableBodies, info);
         writeToSolverBody(bodies, numBodies, info);
         return std::max(rigid, soft);
     };
-    m_islandSolver->solveTogether(*this, info, sweep, others);
+    if (std::all_of(deformableBodies, deformableBodies + numDeformableBodies, isFem))
+        m_islandSolver->solveTogether(*this);
+    else
+        m_islandSolver->solveInTurn(*this, info, sweep);
     m_deformable->deformableBodyInternalWriteBack();
     return 0;
 }

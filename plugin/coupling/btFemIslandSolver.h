@@ -14,13 +14,15 @@
 #include "plugin/stages/btFemContactGroup.h"
 
 /// Settings of Bullet's rigid solver for islands with FEM bodies: full warm start, of friction as well. Soft bodies
-/// spread impulses over many rows, which would not converge from zero within a step.
+/// spread impulses over many rows, which would not converge from zero within a step. Rows of multibodies start from
+/// zero, because MultiBodyRows knows the last impulses.
 inline btContactSolverInfo settingsWithFem(const btContactSolverInfo& info)
 {
     btContactSolverInfo settings = info;
     settings.m_warmstartingFactor = 1;
     settings.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
                              SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+    settings.m_solverMode &= ~(SOLVER_USE_ARTICULATED_WARMSTARTING | SOLVER_DISABLE_IMPLICIT_CONE_FRICTION);
     return settings;
 }
 
@@ -67,27 +69,35 @@ public:
             if (!std::isfinite(contacts[k].m_rhsPenetration)) contacts[k].m_rhsPenetration = 0;
     }
 
-    /// Solves Bullet's rows of `solver` and the soft rows as one problem, or in turn if some of Bullet's belong to
-    /// multibodies or to its own soft bodies (`others`). sweep(iteration) sweeps Bullet's rows once and returns the
-    /// square of the largest change of a row's velocity [m2/s2]. Call while hasFem().
-    template <class Solver, class Sweep>
-    void solveTogether(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep, bool others = false)
+    /// Solves Bullet's rows of `solver` and the soft rows as one problem. Call while hasFem().
+    template <class Solver>
+    void solveTogether(Solver& solver)
     {
-        const btFemBulletRows rows = rowsOf(solver);
-        if (!others && !rows.hasLinks() && m_group->canTakeRows())
-            m_group->solveWith(rows.m_constraints);
+        const bullet_fem::BulletConstraints rigid = rigidRowsOf(solver);
+        if constexpr (std::is_base_of_v<btMultiBodyConstraintSolver, Solver>)
+        {
+            const bullet_fem::MultiBodyConstraints links = {solver.m_data,
+                                                            solver.m_multiBodyNonContactConstraints,
+                                                            solver.m_multiBodyNormalContactConstraints,
+                                                            solver.m_multiBodyFrictionContactConstraints,
+                                                            solver.m_multiBodyTorsionalFrictionContactConstraints,
+                                                            solver.m_multiBodySpinningFrictionContactConstraints};
+            m_group->solveWith(rigid, &links);
+        }
         else
-            solveInTurn(rows, info, sweep);
+            m_group->solveWith(rigid);
     }
 
-private:
-    // Outer iterations: sweeps over Bullet's rows and the soft rows in turn, then the true response of the soft bodies.
-    template <class Sweep>
-    void solveInTurn(const btFemBulletRows& rows, const btContactSolverInfo& info, const Sweep& sweep)
+    /// Solves them in turn, with Bullet's own soft bodies: in outer iterations sweeps over Bullet's rows and the soft
+    /// rows, then the true response of the soft bodies. sweep(iteration) sweeps Bullet's rows once and returns the
+    /// square of the largest change of a row's velocity [m2/s2]. Call while hasFem().
+    template <class Solver, class Sweep>
+    void solveInTurn(Solver& solver, const btContactSolverInfo& info, const Sweep& sweep)
     {
+        const btFemBulletRows rows = rowsOf(solver);
         const int sweeps = std::max(m_group->settings().m_sweeps, info.m_numIterations);
         const int last = std::max(0, info.m_numIterations - 1);  // Bullet does not solve contacts in later iterations
-        m_group->begin(rows.m_constraints.m_bodies, rows.m_linkData ? &rows.m_linkData->m_deltaVelocities : nullptr);
+        m_group->begin(rows.m_constraints.m_bodies, rows.m_linkData.m_deltaVelocities);
         rows.note(m_noted);
         do
         {
@@ -109,22 +119,23 @@ private:
         m_group->finish();
     }
 
+private:
+    template <class Solver>
+    static bullet_fem::BulletConstraints rigidRowsOf(Solver& solver)
+    {
+        return {solver.m_tmpSolverBodyPool, solver.m_tmpSolverNonContactConstraintPool,
+                solver.m_tmpSolverContactConstraintPool, solver.m_tmpSolverContactFrictionConstraintPool,
+                solver.m_tmpSolverContactRollingFrictionConstraintPool};
+    }
+
     template <class Solver>
     static btFemBulletRows rowsOf(Solver& solver)
     {
-        btFemBulletRows rows = {{solver.m_tmpSolverBodyPool, solver.m_tmpSolverNonContactConstraintPool,
-                                 solver.m_tmpSolverContactConstraintPool,
-                                 solver.m_tmpSolverContactFrictionConstraintPool,
-                                 solver.m_tmpSolverContactRollingFrictionConstraintPool}};
-        if constexpr (std::is_base_of_v<btMultiBodyConstraintSolver, Solver>)
-        {
-            rows.m_linkData = &solver.m_data;
-            rows.m_links = {&solver.m_multiBodyNonContactConstraints, &solver.m_multiBodyNormalContactConstraints,
-                            &solver.m_multiBodyFrictionContactConstraints,
-                            &solver.m_multiBodyTorsionalFrictionContactConstraints,
-                            &solver.m_multiBodySpinningFrictionContactConstraints};
-        }
-        return rows;
+        return {rigidRowsOf(solver),
+                solver.m_data,
+                {&solver.m_multiBodyNonContactConstraints, &solver.m_multiBodyNormalContactConstraints,
+                 &solver.m_multiBodyFrictionContactConstraints, &solver.m_multiBodyTorsionalFrictionContactConstraints,
+                 &solver.m_multiBodySpinningFrictionContactConstraints}};
     }
 
     btFemSoftBodySolver& m_fem;

@@ -58,11 +58,6 @@ btScalar btFemMultiBodyConstraintSolver::solveGroupCacheFriendlyIterations(
     btFemIslandSolver::clearBadPushes(*this);
     solveGroupCacheFriendlySplitImpulseIterations(bodies, numBodies, manifolds, numManifolds, constraints,
                                                   numConstraints, info, debugDrawer);
-    const auto sweep = [&](int iteration)
-    {
-        return solveSingleIteration(iteration, bodies, numBodies, manifolds, numManifolds, constraints, numConstraints,
-                                    info, debugDrawer);
-    };
-    m_islandSolver->solveTogether(*this, info, sweep);
+    m_islandSolver->solveTogether(*this);
     return 0;
 }

@@ -36,6 +36,7 @@ struct btFemSleepRecord
     std::uint64_t m_targets = 0;     ///< hash of the targets of nodes and springs, and of initial stress
     bullet_fem::Vec3 m_low, m_high;  ///< bounds of possible contacts [m]
     std::vector<btFemNeighbour> m_neighbours;
-    std::uint64_t m_forces = 0;   ///< hash of m_f at the beginning of the step
-    double m_fastestSquared = 0;  ///< square of the speed of the fastest node in the last step [m2/s2]
+    std::uint64_t m_forces = 0;     ///< hash of m_f at the beginning of the step
+    double m_fastestSquared = 0;    ///< square of the speed of the fastest node in the last step [m2/s2]
+    bool m_enclosesObject = false;  ///< a rigid object has been found inside the body in this step
 };

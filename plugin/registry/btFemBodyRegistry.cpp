@@ -158,6 +158,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
     {
         record->m_membership.m_present = false;
         record->m_reports.m_step.m_flags = 0;
+        record->m_work.m_sleep.m_enclosesObject = false;
     }
     for (int i = 0; i < softBodies.size(); ++i)
     {

@@ -125,6 +125,8 @@ void btFemContactGroup::findRigid()
         const ContactSearchReport& found = m_rigidSearch.reports()[b];
         if (found.m_unknownShape) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_UNKNOWN_SHAPE;
         if (found.m_limited) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_CONTACT_LIMIT;
+        if (found.m_encloses) m_records[b]->m_reports.m_step.m_flags |= BT_FEM_PENETRATING;
+        m_records[b]->m_work.m_sleep.m_enclosesObject = found.m_encloses;
     }
 }
 
@@ -242,7 +244,7 @@ void btFemContactGroup::onSolverBodies(const Part& part)
     m_milliseconds += watch.milliseconds();
 }
 
-void btFemContactGroup::solveWith(const BulletConstraints& bullet)
+void btFemContactGroup::solveWith(const BulletConstraints& bullet, const MultiBodyConstraints* links)
 {
     const btFemStopwatch watch;
     m_solverBodies.begin(m_rigid, bullet.m_bodies, nullptr);
@@ -250,8 +252,12 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet)
     if (m_bulletRows.anyBad())
         for (btFemBodyRecord* record : m_records) record->m_reports.m_step.m_flags |= BT_FEM_BAD_CONSTRAINT;
     m_solverBodies.read(m_problem.m_rigidProxies);
+    if (links) m_multiBodyRows.append({bullet, *links, m_solverBodies.proxyOf(), m_rigid, m_problem});
+    if (links && links->m_joints.size() + links->m_contacts.size() > 0)
+        m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
     m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
+    if (links) m_multiBodyRows.takeBack({bullet, *links, m_solverBodies.proxyOf(), m_rigid, m_problem});
     m_bulletRows.takeBack(bullet, m_problem);
     m_solverBodies.write(m_problem.m_rigidProxies);
     m_solverBodies.end(m_rigid);
@@ -260,11 +266,11 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet)
 }
 
 // Bullet's rows need the outer iterations, too.
-void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas)
+void btFemContactGroup::begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>& linkDeltas)
 {
     if (!m_problem.m_contacts.empty()) findRigidContacts();
     m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
-    m_solverBodies.begin(m_rigid, pool, linkDeltas);
+    m_solverBodies.begin(m_rigid, pool, &linkDeltas);
     onSolverBodies([this] { m_solver.begin(m_problem, m_settings); });
 }
 

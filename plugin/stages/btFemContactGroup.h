@@ -10,6 +10,7 @@
 #include "bullet_bridge/contact/soft/soft_pair_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/rigid/bullet_rows.h"
+#include "bullet_bridge/rigid/multibody_rows.h"
 #include "bullet_bridge/rigid/rebounds.h"
 #include "bullet_bridge/rigid/rigid_contacts.h"
 #include "bullet_bridge/rigid/rigid_rewind.h"
@@ -73,19 +74,17 @@ public:
     /// Solves after Bullet's rigid solver, and applies the reactions to the rigid bodies.
     void solve();
 
-    /// True if Bullet's constraints of the island can be solved with the group's: there are no links of multibodies.
-    bool canTakeRows() const { return m_rigid.links().isEmpty(); }
-
     /// Solves within Bullet's rigid solver, after its set-up, the group's problem with Bullet's constraints in it, and
     /// writes all velocities and impulses back. moveRigid follows after the rigid solver has written its bodies back.
-    void solveWith(const bullet_fem::BulletConstraints& bullet);
+    /// `links`: constraints of multibodies; null for a solver without them.
+    void solveWith(const bullet_fem::BulletConstraints& bullet,
+                   const bullet_fem::MultiBodyConstraints* links = nullptr);
 
     /// Solves in turn with Bullet's rigid solver, on its solver bodies, by the functions of ContactSolver: begin; while
     /// needsOuterIteration, one outer iteration of sweep (repeatedly) and correct; restoreBest if shouldRollBack;
     /// finally finish; and moveRigid after the rigid solver has written its bodies back. `others`: largest velocity
-    /// change by Bullet's rows since the last sweep [m/s]. `linkDeltas`: see ArticulatedBodies::beginSolve; null for a
-    /// solver without multibodies.
-    void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>* linkDeltas = nullptr);
+    /// change by Bullet's rows since the last sweep [m/s]. `linkDeltas`: see LinkDeltas::begin.
+    void begin(btAlignedObjectArray<btSolverBody>& pool, btAlignedObjectArray<btScalar>& linkDeltas);
     bool sweep(double others);
     bool needsOuterIteration() const { return m_solver.needsOuterIteration(); }
     void correct();
@@ -113,8 +112,8 @@ public:
     const bullet_fem::SoftPairMemory& softPairs() const { return m_softPairs.memory(); }
 
 private:
-    /// Largest tolerance together with Bullet's rows, which respond to the remaining error [-]. At 3e-3, heavy soft
-    /// bodies on light rigid ones shook by 3 cm.
+    /// Largest tolerance in turn with Bullet's rows, which respond to the remaining error, and with rows of multibodies
+    /// [-]. At 3e-3, heavy soft bodies on light rigid ones shook by 3 cm, and fingers moved at .3 mm/s while they held.
     static constexpr double kToleranceWithRows = 1e-4;
 
     void clearProblem();
@@ -157,6 +156,7 @@ private:
     bullet_fem::RigidProxies m_rigid;
     bullet_fem::SolverBodies m_solverBodies;
     bullet_fem::BulletRows m_bulletRows;
+    bullet_fem::MultiBodyRows m_multiBodyRows;
     std::vector<const btCollisionObject*> m_met;  // scratch: rigid objects in contact or held
     bullet_fem::Rebounds m_rebounds;
     bullet_fem::ContactProblem m_problem;

@@ -214,7 +214,8 @@ void updateActivation(WorldObjects& world, btFemBodyRecord& record)
     if (soft.getActivationState() == DISABLE_SIMULATION) return;
     if (soft.isActive() && record.m_work.m_lastStep > 0 && (record.m_reports.m_step.m_flags & BT_FEM_BAD_STEP) == 0)
     {
-        const double threshold = isDriven(record.fem()) ? double(soft.m_sleepingThreshold) : 0;
+        const bool staysAwake = isDriven(record.fem()) || record.m_work.m_sleep.m_enclosesObject;
+        const double threshold = staysAwake ? double(soft.m_sleepingThreshold) : 0;
         soft.m_maxSpeedSquared =
             static_cast<btScalar>(std::max(record.m_work.m_sleep.m_fastestSquared, threshold * threshold));
         updateTimeAtRest(soft, static_cast<btScalar>(record.m_work.m_lastStep));

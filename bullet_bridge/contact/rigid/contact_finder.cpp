@@ -44,7 +44,11 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     m_scope.begin(fem, bodyIndex);
     m_matcher.begin(fem);
     m_targets.list(m_scope, around);
-    for (ContactTarget& target : m_targets.targets()) findNear(target);
+    for (ContactTarget& target : m_targets.targets())
+    {
+        findNear(target);
+        report.m_encloses = report.m_encloses || isEnclosed(m_scope, target);
+    }
     reserve();
     turnFromInnerFaces(m_scope, m_targets.targets(), m_matcher.heldNormal(), m_near);
     m_filter.judge(m_scope, m_targets.targets(), m_near);

@@ -16,6 +16,7 @@ struct ContactSearchReport
 {
     bool m_unknownShape = false;  ///< a shape without contact support was left out
     bool m_limited = false;       ///< more contacts than permitted were found; they were thinned by place
+    bool m_encloses = false;      ///< the middle of a solid object is inside the body
 };
 
 /// Records that Bullet's broad phase found the two overlapping, once. May be called by several threads at once.

@@ -8,6 +8,7 @@
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact/friction.h"
+#include "bullet_bridge/geometry/shapes/field_distance.h"
 
 namespace bullet_fem
 {
@@ -80,14 +81,13 @@ void SearchScope::findExposed()
     const std::vector<int>& inner = body.innerNodes();
     if (inner.empty()) return;
     const std::vector<Vec3>& x = body.surfacePosition();
-    const TetMesh& mesh = body.m_body.m_model->mesh();
     m_isInsideOut.clear();
-    if (body.m_search.m_isInsideOut) m_isInsideOut.assign(x.size(), 0);
-    for (const Tet& t : mesh.tets())
+    if (body.m_search.m_isInsideOut)
     {
-        if (!body.m_search.m_isInsideOut) break;
-        if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
-            for (int node : t) m_isInsideOut[node] = 1;
+        m_isInsideOut.assign(x.size(), 0);
+        for (const Tet& t : body.m_body.m_model->mesh().tets())
+            if (dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]]) < 0)
+                for (int node : t) m_isInsideOut[node] = 1;
     }
     const Vec3 low = m_culling.low(), high = m_culling.high();
     for (int i : inner)
@@ -171,6 +171,27 @@ bool isFastTarget(const SearchScope& scope, const ContactTarget& target)
     // cheap upper bound first
     return isFast(swept, scope.m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&
            isFast(swept, fastestNode(fem.m_body, swept.m_motion.m_linearVelocity) - falling, edge);
+}
+
+bool isEnclosed(const SearchScope& scope, const ContactTarget& target)
+{
+    const FemSoftBody& fem = scope.fem();
+    if (fem.m_skin || !isSolid(*target.m_shape->m_shape)) return false;
+    const Vec3 middle = 0.5 * (target.m_shape->m_boundsMin + target.m_shape->m_boundsMax);
+    const Vec3 low = scope.m_culling.low(), high = scope.m_culling.high();
+    for (int c = 0; c < 3; ++c)
+        if (!(middle[c] > low[c] && middle[c] < high[c])) return false;
+    const std::vector<Vec3>& x = fem.m_body.m_state.m_x;
+    const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+    { return dot(cross(b - a, c - a), d - a); };
+    const std::vector<Tet>& tets = fem.m_body.m_model->mesh().tets();
+    return std::any_of(tets.begin(), tets.end(),
+                       [&](const Tet& t)
+                       {
+                           const Vec3 &a = x[t[0]], &b = x[t[1]], &c = x[t[2]], &d = x[t[3]];
+                           return volume(middle, b, c, d) > 0 && volume(a, middle, c, d) > 0 &&
+                                  volume(a, b, middle, d) > 0 && volume(a, b, c, middle) > 0;
+                       });
 }
 
 }  // namespace bullet_fem

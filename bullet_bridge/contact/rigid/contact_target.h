@@ -95,4 +95,8 @@ SweptShape sweptShapeOf(const ContactTarget& target);
 /// True if target or body move so far within the step that gaps and normals of its beginning mean nothing.
 bool isFastTarget(const SearchScope& scope, const ContactTarget& target);
 
+/// True if the middle of a solid target is inside an element of the body, so that no contact shows the way out. Not
+/// with a skin.
+bool isEnclosed(const SearchScope& scope, const ContactTarget& target);
+
 }  // namespace bullet_fem

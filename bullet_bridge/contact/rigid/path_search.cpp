@@ -79,8 +79,8 @@ bool meets(const Paths& search, const Triangle& nodes, SweptContact& contact)
     return meetsIfHeld(search, nodes, -given, contact) || meetsIfHeld(search, nodes, given, contact);
 }
 
-// Sets the levers of a contact that is met later in the step to its place at that time. A nearby rolling contact has
-// one lever for both sides, which conserves angular momentum; a contact of far motion has one for each side.
+// Sets the levers of a contact that is met later in the step to its place at that time, but not those of a nearby
+// rolling contact.
 void setLevers(const SearchScope& scope, const ContactTarget& target, int feature, const SweptContact& met,
                ContactPoint& contact)
 {

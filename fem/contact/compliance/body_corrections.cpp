@@ -21,25 +21,21 @@ constexpr double kRounding = 1e-9;  // share of the body's speed below which cha
 
 }  // namespace
 
-ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, const CorrectionGoal& goal)
+ImpulseResponse SoftBodyContacts::beginCorrection(const StepSettings& settings, double floor)
 {
     m_learnt = false;
     refresh();
-    if (!gatherBeyond(m_applied) && !m_leftMuch) return {};
-    m_leftMuch = goal.m_share > 0;
+    if (!gatherBeyond(m_applied) && !m_mixed) return {};
     addLevers(settings);
-    StepSettings loosened = settings;
-    loosened.m_tolerance = std::max(settings.m_tolerance, goal.m_share);
-    const double floor = floorOf(goal) * settings.m_tolerance / loosened.m_tolerance;
-    return {m_body.m_body, &m_nodeIn, loosened, floor, false, {}};
+    return {m_body.m_body, &m_nodeIn, settings, normOfFloor(floor), false, {}};
 }
 
 // Norm of a residual [N s].
-double SoftBodyContacts::floorOf(const CorrectionGoal& goal) const
+double SoftBodyContacts::normOfFloor(double floor) const
 {
     double all = 0;
     for (const Vec3& impulse : m_impulse) all += dot(impulse, impulse);
-    return goal.m_floor * std::sqrt(all);
+    return floor * std::sqrt(all);
 }
 
 // Two surfaces separated by a gap share one point of action: the moment by the gap's lever is applied as a spin. An
@@ -69,7 +65,7 @@ Vec3 SoftBodyContacts::groupLever(const End& end, const Vec3& impulse) const
     return lever;
 }
 
-void SoftBodyContacts::takeExpected(const StepSettings& settings, const CorrectionGoal& goal)
+void SoftBodyContacts::takeExpected(const StepSettings& settings, double floor)
 {
     if (m_ends.empty()) return giveUpExpected(settings);
     addLevers(settings);
@@ -88,7 +84,7 @@ void SoftBodyContacts::takeExpected(const StepSettings& settings, const Correcti
     }
     scratch.m_momentum.addImpulses(body, m_nodeIn, settings.m_step);
     scratch.m_momentum.restore(body, scratch.m_velocity);
-    m_leftMuch = m_mixed = std::sqrt(left) > settings.m_tolerance * floorOf(goal);
+    m_mixed = std::sqrt(left) > settings.m_tolerance * normOfFloor(floor);
     m_applied.assign(m_impulse.begin(), m_impulse.end());
 }
 
@@ -176,7 +172,7 @@ void SoftBodyContacts::learn(const Lesson& lesson)
     if (m_points.points() > 0) m_points.scaleElastic(factor);
     if (!m_dense) return;
     formOwn();
-    m_working.reset(size(), static_cast<int>(m_motions.size()));
+    m_working.reset(m_points, static_cast<int>(m_motions.size()));
 }
 
 }  // namespace bullet_fem

@@ -66,25 +66,6 @@ void TurnColumn(const RestColumn& in, float* columns)
 }
 #endif
 
-void AddWeighted(const WeightedArrays& in, std::size_t size, float* sum)
-{
-    const hn::ScalableTag<float> d;
-    std::size_t i = 0;
-    for (; i + hn::Lanes(d) <= size; i += hn::Lanes(d))
-    {
-        auto s = hn::Zero(d);
-        for (int k = 0; k < in.m_count; ++k)
-            s = hn::MulAdd(hn::Set(d, in.m_weights[k]), hn::LoadU(d, in.m_arrays[k] + i), s);
-        hn::StoreU(s, d, sum + i);
-    }
-    for (; i < size; ++i)
-    {
-        float s = 0;
-        for (int k = 0; k < in.m_count; ++k) s += in.m_weights[k] * in.m_arrays[k][i];
-        sum[i] = s;
-    }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
 HWY_AFTER_NAMESPACE();
@@ -94,16 +75,10 @@ namespace bullet_fem
 {
 
 HWY_EXPORT(TurnColumn);
-HWY_EXPORT(AddWeighted);
 
 void turnColumn(const RestColumn& column, float* columns)
 {
     HWY_DYNAMIC_DISPATCH(TurnColumn)(column, columns);
-}
-
-void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum)
-{
-    HWY_DYNAMIC_DISPATCH(AddWeighted)(arrays, size, sum);
 }
 
 void scalar::turnColumn(const RestColumn& in, float* columns)
@@ -121,16 +96,6 @@ void scalar::turnColumn(const RestColumn& in, float* columns)
                         sum += rotation[kColumnOfRotation * m + k] * block[3 * m + n] * in.m_source[3 * c + n];
                 columns[c * in.m_stride + 3 * i + k] = sum;
             }
-    }
-}
-
-void scalar::addWeighted(const WeightedArrays& in, std::size_t size, float* sum)
-{
-    for (std::size_t i = 0; i < size; ++i)
-    {
-        float s = 0;
-        for (int k = 0; k < in.m_count; ++k) s += in.m_weights[k] * in.m_arrays[k][i];
-        sum[i] = s;
     }
 }
 

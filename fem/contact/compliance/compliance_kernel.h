@@ -26,23 +26,10 @@ struct RestColumn
 /// On vectors of four values.
 void turnColumn(const RestColumn& column, float* columns);
 
-/// A weighted sum of some arrays.
-struct WeightedArrays
-{
-    const float* const* m_arrays = nullptr;  ///< m_count arrays
-    const float* m_weights = nullptr;        ///< weight of each array
-    int m_count = 0;
-};
-
-/// sum_i = sum_k w_k a_ki for i in [0, size), in the order of k; zero for no arrays. `sum` may be one of them. On the
-/// widest vectors of the processor.
-void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum);
-
-/// References in plain C++, against which the kernels are tested.
+/// Reference in plain C++, against which the kernel is tested.
 namespace scalar
 {
 void turnColumn(const RestColumn& column, float* columns);
-void addWeighted(const WeightedArrays& arrays, std::size_t size, float* sum);
 }  // namespace scalar
 
 }  // namespace bullet_fem

@@ -82,11 +82,7 @@ void PointCompliance::form(const ContactBody& body, double scale, const std::vec
     turnNodes(body);
     formNodeColumns(body, scale);
     if (m_own > 0) std::fill(column(3 * m_nodes.size()), column(3 * slots()), 0.f);
-    m_floatWeight.assign(m_weight.begin(), m_weight.end());
-    m_columns.reserve(3 * m_rows * points());
-    m_terms.reserve(SurfacePoint::kMaxNodes);
     mirrorNodeColumns();
-    forgetColumns();
     setRigid(body, shares);
 }
 
@@ -94,13 +90,11 @@ void PointCompliance::scaleElastic(double factor)
 {
     for (std::size_t k = 0; k < 3 * m_rows * static_cast<std::size_t>(slots()); ++k)
         m_N[k] = static_cast<float>(factor * m_N[k]);
-    forgetColumns();
 }
 
 void PointCompliance::setRigid(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares)
 {
     const RigidMomentum& momentum = body.m_body->m_workspace.scratch().m_momentum;
-    m_components = body.m_body->m_model->mesh().componentCount();
     m_rigidOfSlot.assign(slots(), RigidSide());
     for (std::size_t t = 0; t < shares.size(); ++t) m_rigidOfSlot[t] = {shares[t], momentum.responseTo(shares[t])};
     m_rigid.assign(points(), RigidSide());
@@ -119,12 +113,6 @@ void PointCompliance::addRigid(const std::vector<RigidMotion>& motions, std::vec
     }
 }
 
-void PointCompliance::forgetColumns()
-{
-    m_columnsOf.assign(points(), -1);
-    m_columnsFormed = 0;
-}
-
 void PointCompliance::set(std::size_t i, std::size_t j, double value)
 {
     column(j)[i] = column(i)[j] = static_cast<float>(value);
@@ -141,46 +129,19 @@ Vec3 PointCompliance::read(int point, const std::vector<double>& slotValues) con
     return sum;
 }
 
-const float* PointCompliance::columns(int point)
+Mat3 PointCompliance::elasticBlock(int e, int f) const
 {
-    const int only = m_first[point];  // of a point that is a single node or slot
-    if (m_first[point + 1] == only + 1 && m_weight[only] == 1)
-        return column(3 * static_cast<std::size_t>(m_slot[only]));
-    if (m_columnsOf[point] < 0)
-    {
-        m_columnsOf[point] = m_columnsFormed++;
-        growTo(m_columns, 3 * m_rows * m_columnsFormed);
-        float* sums = &m_columns[3 * m_rows * m_columnsOf[point]];
-        const int first = m_first[point], count = m_first[point + 1] - first;
-        for (int c = 0; c < 3; ++c)
+    Mat3 w;
+    for (int k = m_first[e]; k < m_first[e + 1]; ++k)
+        for (int l = m_first[f]; l < m_first[f + 1]; ++l)
         {
-            m_terms.clear();
-            for (int k = first; k < first + count; ++k)
-                m_terms.push_back(column(3 * static_cast<std::size_t>(m_slot[k]) + c));
-            addWeighted({m_terms.data(), m_floatWeight.data() + first, count}, m_rows, sums + c * m_rows);
+            const double weight = m_weight[k] * m_weight[l];
+            for (int c = 0; c < 3; ++c)
+            {
+                const float* to = column(3 * static_cast<std::size_t>(m_slot[l]) + c) + 3 * m_slot[k];
+                for (int i = 0; i < 3; ++i) w(i, c) += weight * to[i];
+            }
         }
-    }
-    return &m_columns[3 * m_rows * m_columnsOf[point]];
-}
-
-// Values at a point of three columns over the slots.
-Mat3 PointCompliance::readColumns(int point, const float* columns) const
-{
-    float w[9] = {};
-    for (int k = m_first[point]; k < m_first[point + 1]; ++k)
-        for (int c = 0; c < 3; ++c)
-        {
-            const float* value = columns + c * m_rows + 3 * static_cast<std::size_t>(m_slot[k]);
-            for (int i = 0; i < 3; ++i) w[3 * i + c] += m_floatWeight[k] * value[i];
-        }
-    return {{{w[0], w[1], w[2]}, {w[3], w[4], w[5]}, {w[6], w[7], w[8]}}};
-}
-
-Mat3 PointCompliance::block(int e, int f) const
-{
-    Mat3 w = m_rigid[e].block(m_rigid[f]);
-    for (int l = m_first[f]; l < m_first[f + 1]; ++l)
-        w += m_weight[l] * readColumns(e, column(3 * static_cast<std::size_t>(m_slot[l])));
     return w;
 }
 

@@ -14,9 +14,9 @@ namespace bullet_fem
 /// Compliance between points of a body's surface: the rigid response at the present positions, six numbers per point
 /// and axis in double precision, plus an elastic one, S^T N S, with the points' weights S and the blocks N_ij between
 /// nodes, a scale s times R_i B_ij R_j^T, B = A0^-1 without rest modes. Nodes outside the factor have only the inverse
-/// diagonal in B, fixed ones zero in N. Points outnumber the nodes, and few of them ever carry an impulse: only the
-/// required columns N S are formed. A side that is no weighted mean of nodes has a slot of its own after the nodes,
-/// whose part of N is set from outside. Symmetric. Grows, never shrinks.
+/// diagonal in B, fixed ones zero in N. N is dense over the slots: the nodes of all points, then one slot of its own
+/// for each side that is no weighted mean of nodes, whose part of N is set from outside. Symmetric. Grows, never
+/// shrinks.
 class PointCompliance
 {
 public:
@@ -52,15 +52,23 @@ public:
     /// The slot of a point with its own slot.
     int slot(int point) const { return m_slot[m_first[point]]; }
 
+    /// Calls visit(slot, weight) for the slots of a point; number of such calls for all points.
+    template <class Visit>
+    void forEachSlot(int point, const Visit& visit) const
+    {
+        for (int k = m_first[point]; k < m_first[point + 1]; ++k) visit(m_slot[k], m_weight[k]);
+    }
+    std::size_t terms() const { return m_slot.size(); }
+
     /// Length of a vector over the slots, three components each, padded for kernels.
     std::size_t order() const { return padded(3 * static_cast<std::size_t>(slots()), kResponsePadding); }
 
     /// Entries of N that form() leaves out: set(i, j) sets (j, i) as well; indices are three times a slot plus an axis.
     void set(std::size_t i, std::size_t j, double value);
 
-    /// The rigid part of a point, and the number of components that it may belong to.
+    /// The rigid part of a point, and of a slot.
     const RigidSide& rigid(int point) const { return m_rigid[point]; }
-    int components() const { return m_components; }
+    const RigidSide& rigidOfSlot(int slot) const { return m_rigidOfSlot[slot]; }
 
     /// Adds rigid motions of the components to slot values.
     void addRigid(const std::vector<RigidMotion>& motions, std::vector<double>& slotValues) const;
@@ -68,46 +76,37 @@ public:
     /// Interpolation of slot values at a point.
     Vec3 read(int point, const std::vector<double>& slotValues) const;
 
-    /// Elastic response of the slots to an impulse on a point, order() values each; its columns are formed at the
-    /// first request.
-    Response response(int point, const Vec3& impulse) { return {columns(point), m_rows, impulse}; }
+    /// Elastic response of the slots to an impulse on one, order() values.
+    Response response(int slot, const Vec3& impulse) const
+    {
+        return {column(3 * static_cast<std::size_t>(slot)), m_rows, impulse};
+    }
 
-    /// W_ef, the velocity of e for an impulse on f.
-    Mat3 block(int e, int f) const;
-
-    /// Its elastic part, from cached columns of f, for frequent use.
-    Mat3 elasticBlock(int e, int f) { return readColumns(e, columns(f)); }
+    /// W_ef, the velocity of e for an impulse on f, and its elastic part.
+    Mat3 block(int e, int f) const { return m_rigid[e].block(m_rigid[f]) + elasticBlock(e, f); }
+    Mat3 elasticBlock(int e, int f) const;
 
 private:
-    const float* columns(int point);
-    Mat3 readColumns(int point, const float* columns) const;
     const float* column(std::size_t j) const { return m_N.data() + j * m_rows; }
     float* column(std::size_t j) { return m_N.data() + j * m_rows; }
     void turnNodes(const ContactBody& body);
     void formNodeColumns(const ContactBody& body, double scale);
     void addRestModes(const ContactBody& body, double scale, std::size_t slot);
     void setRigid(const ContactBody& body, const std::vector<RigidMomentum::Share>& shares);
-    void forgetColumns();
     void mirrorNodeColumns();
 
     std::vector<int> m_first;  // per point: start in the weights, then the end
     std::vector<double> m_weight;
-    std::vector<float> m_floatWeight;  // weights in single precision
     std::vector<int> m_slot;  // per weight: slot; until numberSlots() the node, or -1 for a point with its own slot
     int m_own = 0;            // number of points with their own slots
     std::vector<int> m_nodes;
-    std::vector<int> m_slotOfNode;   // slot of each node of the body
-    std::vector<int> m_offsets;      // offset of each of m_nodes in the cache's columns
-    std::vector<float> m_rotations;  // rotation of each of m_nodes, in the layout of RestColumn
-    std::size_t m_rows = 0;          // rows of N, padded
-    std::vector<float> m_N;          // column by column
-    std::vector<int> m_columnsOf;    // per point: index in m_columns, or -1
-    std::vector<float> m_columns;    // columns of N S, with room for all points
-    int m_columnsFormed = 0;
-    std::vector<const float*> m_terms;     // arrays of one sum
+    std::vector<int> m_slotOfNode;         // slot of each node of the body
+    std::vector<int> m_offsets;            // offset of each of m_nodes in the cache's columns
+    std::vector<float> m_rotations;        // rotation of each of m_nodes, in the layout of RestColumn
+    std::size_t m_rows = 0;                // rows of N, padded
+    std::vector<float> m_N;                // column by column
     std::vector<RigidSide> m_rigidOfSlot;  // rigid parts of the slots
     std::vector<RigidSide> m_rigid;        // and of the points
-    int m_components = 0;
 };
 
 }  // namespace bullet_fem

@@ -49,7 +49,17 @@ void AddResponses(const Response* responses, std::size_t count, std::size_t orde
 {
     std::size_t k = 0;
     for (; k + 4 <= count; k += 4) addSome<4>(responses + k, order, velocity);
-    for (; k < count; ++k) addSome<1>(responses + k, order, velocity);
+    switch (count - k)
+    {
+        case 3:
+            return addSome<3>(responses + k, order, velocity);
+        case 2:
+            return addSome<2>(responses + k, order, velocity);
+        case 1:
+            return addSome<1>(responses + k, order, velocity);
+        default:
+            return;
+    }
 }
 
 }  // namespace HWY_NAMESPACE

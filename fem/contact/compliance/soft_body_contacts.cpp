@@ -44,7 +44,7 @@ void SoftBodyContacts::clear(const ContactBody& body, const StepSettings& settin
     if (m_theta < 1) m_mass = std::accumulate(mass.begin(), mass.end(), 0.0);
     m_added = 0;
     m_firstJoint = std::numeric_limits<int>::max();
-    m_working.reset(0, 0);
+    m_working.clear();
 }
 
 void SoftBodyContacts::setPoint(int e, const SurfacePoint& point, const Vec3& at)
@@ -96,7 +96,7 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
     m_nodeIn.resize(nodes);
     m_nodeOut.resize(nodes);
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
-    m_formed = m_tooSoft = m_leftMuch = m_mixed = false;
+    m_formed = m_tooSoft = m_mixed = false;
     m_firstJoint = std::min(m_firstJoint, size());
     m_firstPoint = m_dense ? 0 : m_firstJoint;
     m_points.clear(nodes);
@@ -113,9 +113,10 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
         m_before.assign(m_ends.size(), Vec3());
         return;
     }
-    m_working.reset(size(), m_body.m_body->m_model->mesh().componentCount());
+    m_working.reset(m_points, m_body.m_body->m_model->mesh().componentCount());
     m_motions.assign(m_working.components(), RigidMotion());
-    m_responses.reserve(m_ends.size());
+    m_responses.reserve(m_points.slots());
+    m_slotImpulse.assign(m_points.slots(), Vec3());
     m_own.resize(m_ends.size());
     m_slotVelocity.assign(m_points.order(), 0);
     m_slotBefore.assign(m_points.order(), 0);
@@ -255,16 +256,22 @@ void SoftBodyContacts::push(int e, const Vec3& impulse)
 void SoftBodyContacts::refresh()
 {
     if (!m_dense) return;
-    m_responses.clear();
     if (m_pushedAtRest)
         for (int e = 0; e < size(); ++e) see(e);
     else
         for (int e : m_working.ends()) see(e);
+    m_responses.clear();
+    for (int slot = 0; slot < m_points.slots(); ++slot)
+    {
+        Vec3& impulse = m_slotImpulse[slot];
+        if (dot(impulse, impulse) > 0) m_responses.push_back(m_points.response(slot, impulse));
+        impulse = {};
+    }
     if (m_responses.empty() && !m_pushedAtRest) return;
     addResponses(m_responses.data(), m_responses.size(), m_points.order(), m_slotVelocity.data());
     m_points.addRigid(m_motions, m_slotVelocity);
     std::fill(m_motions.begin(), m_motions.end(), RigidMotion());
-    if (m_pushedAtRest) m_working.load(m_points, m_slotVelocity);
+    if (m_pushedAtRest) m_working.load(m_slotVelocity);
     m_pushedAtRest = false;
 }
 
@@ -273,7 +280,7 @@ void SoftBodyContacts::see(int e)
     const Vec3 unseen = m_impulse[e] - m_seen[e];
     if (dot(unseen, unseen) > 0)
     {
-        m_responses.push_back(m_points.response(e, unseen));
+        m_points.forEachSlot(e, [&](int slot, double weight) { m_slotImpulse[slot] += weight * unseen; });
         const RigidSide& rigid = m_points.rigid(e);
         if (rigid.component() >= 0) m_motions[rigid.component()] += rigid.response(unseen);
     }
@@ -336,7 +343,7 @@ void SoftBodyContacts::beginPush()
     for (std::vector<Vec3>* vectors : {&m_velocity, &m_impulse, &m_applied, &m_seen})
         std::fill(vectors->begin(), vectors->end(), Vec3());
     std::fill(m_slotVelocity.begin(), m_slotVelocity.end(), 0.0);
-    if (m_dense && size() > 0) m_working.load(m_points, m_slotVelocity);
+    if (m_dense && size() > 0) m_working.load(m_slotVelocity);
 }
 
 Vec3 SoftBodyContacts::applyPositionCorrection(const StepSettings& settings)

@@ -14,14 +14,6 @@
 namespace bullet_fem
 {
 
-/// Accuracy of a corrective solve: it ends when its residual is below the step's tolerance of the right-hand side or of
-/// this floor, or below a share of the right-hand side.
-struct CorrectionGoal
-{
-    double m_floor = 0;  ///< floor, as a share of all impulses on the body [-], >= 0
-    double m_share = 0;  ///< share of the right-hand side [-], in [0, 1)
-};
-
 /// The sides of contacts and joints on one soft body, and their coupled response: velocities u = u_true + W (lambda -
 /// applied), with W_ef = J_e P J_f^T for the warped rest factor P. Up to a limit of sides, P between their nodes is a
 /// dense matrix, formed from cached columns of A0^-1; beyond it P itself is applied, to all new impulses at once. Grows
@@ -121,7 +113,7 @@ public:
     /// each side in it, and startWork.
     void choose() { m_working.choose(); }
     void work(int e) { m_working.add(e); }
-    void startWork() { m_working.pack(m_points, m_slotVelocity); }
+    void startWork() { m_working.pack(m_slotVelocity); }
 
     /// The working set, for Anderson mixing; pushAlong adds an impulse to a side whose velocities the mix adds.
     WorkingSet& working() { return m_working; }
@@ -135,16 +127,17 @@ public:
     /// Counts the impulses so far of such sides as applied. Their difference from the expected ones joins the residual
     /// of the next correction, which is due even without new impulses if it is large; momentum is corrected
     /// immediately. Without sides, all expected impulses are removed.
-    void takeExpected(const StepSettings& settings, const CorrectionGoal& goal);
+    void takeExpected(const StepSettings& settings, double floor);
 
     /// Computes the velocities from those of the body, which include the impulses applied so far, plus W times the
     /// rest.
     void measure();
 
-    /// The right-hand side of the body's next correction: the impulses not applied yet, and the residual of the last
-    /// correction; without a body if there is nothing to solve. Call endCorrection after the solve: it compares the
+    /// The right-hand side of the body's next correction: the impulses not applied yet; without a body if there is
+    /// nothing to solve. It ends when its residual is below the step's tolerance of the right-hand side, or of `floor`,
+    /// a share of all impulses on the body [-], >= 0. Call endCorrection after the solve: it compares the
     /// result with W, and scales W up if it was too stiff, unless the velocities are lost in rounding.
-    ImpulseResponse beginCorrection(const StepSettings& settings, const CorrectionGoal& goal);
+    ImpulseResponse beginCorrection(const StepSettings& settings, double floor);
     void endCorrection();
 
     /// Adds the impulses of contacts and joints to the body's support reactions.
@@ -186,7 +179,7 @@ private:
     void measureSlots();
     void estimateDiagonal();
     bool gatherBeyond(const std::vector<Vec3>& known);
-    double floorOf(const CorrectionGoal& goal) const;
+    double normOfFloor(double floor) const;
     void addLevers(const StepSettings& settings);
     Vec3 groupLever(const End& end, const Vec3& impulse) const;
     void giveUpExpected(const StepSettings& settings);
@@ -217,7 +210,8 @@ private:
     std::vector<Mat3> m_own;  // dense: W_ee
     // dense: a side outside the working set has an impulse that the set's velocities do not include
     bool m_pushedAtRest = false;
-    std::vector<Response> m_responses;           // elastic responses of a refresh
+    std::vector<Vec3> m_slotImpulse;             // impulses of a refresh on the slots
+    std::vector<Response> m_responses;           // their elastic responses
     std::vector<RigidMotion> m_motions;          // and the rigid ones, per component
     std::vector<Vec3> m_nodeIn, m_nodeOut;       // impulses and velocities of all nodes
     Mat3 m_meanDiagonal;                         // not dense: estimate of W_ee
@@ -225,7 +219,6 @@ private:
     std::vector<RigidMomentum::Share> m_shares;  // per slot
     bool m_learnt = false;                       // the last correction changed the scale
     bool m_tooSoft = false;                      // W was too soft in a correction of this problem
-    bool m_leftMuch = false;                     // the last correction left much of its right-hand side
     bool m_mixed = false;  // the next correction also removes wrong expected impulses: W learns nothing from it
     double m_allWork = 0;  // approximate work of the impulses so far [J]
 };

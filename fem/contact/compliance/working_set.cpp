@@ -9,25 +9,38 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kMaxLeft = 0.25;  // share of sides that may have left before the set is compacted
+constexpr double kMaxLeft = 0.25;     // share of sides that may have left before the set is compacted
+constexpr std::size_t kTogether = 4;  // responses that the kernel adds in one pass
 
 }  // namespace
 
-void WorkingSet::reset(int ends, int components)
+void WorkingSet::clear()
 {
     m_ends.clear();
-    m_rigid.clear();
-    m_rigid.reserve(ends);
-    m_motion.assign(components, RigidMotion());
     m_wanted.clear();
-    m_packed = 0;
-    m_place.assign(ends, -1);
-    m_stride = 0;
-    const std::size_t most = padded(3 * static_cast<std::size_t>(ends), kResponsePadding);
+    m_sides.clear();
+    m_terms.clear();
+    m_slots.clear();
+    m_place.clear();
+    m_packed = m_stride = 0;
+}
+
+void WorkingSet::reset(const PointCompliance& points, int components)
+{
+    clear();
+    m_points = &points;
+    m_place.assign(points.points(), -1);
+    m_placeOfSlot.assign(points.slots(), -1);
+    m_motion.assign(components, RigidMotion());
+    const std::size_t most = points.order();
     if (m_W.size() < most * most) m_W.resize(most * most);
     m_velocity.assign(most, 0);
-    m_ends.reserve(ends);
-    m_wanted.reserve(ends);
+    m_ends.reserve(points.points());
+    m_wanted.reserve(points.points());
+    m_sides.reserve(points.points());
+    m_terms.reserve(points.terms());
+    m_slots.reserve(points.slots());
+    m_isKept.reserve(points.slots());
     m_swept.reserve(most + 6 * m_motion.size());
     for (std::vector<double>& delta : m_sweptDelta) delta.reserve(most + 6 * m_motion.size());
 }
@@ -48,94 +61,143 @@ void WorkingSet::add(int e)
     m_wanted[m_place[e]] = 1;
 }
 
-void WorkingSet::put(const Vec3& v, std::vector<double>& values, std::size_t place)
+void WorkingSet::respond(int e, const Vec3& impulse, std::vector<double>& values) const
 {
-    for (int i = 0; i < 3; ++i) values[3 * place + i] = v[i];
-}
-
-void WorkingSet::pack(PointCompliance& points, const std::vector<double>& slotVelocity)
-{
-    const auto left = std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(0));
-    if (static_cast<double>(left) > kMaxLeft * static_cast<double>(m_ends.size())) dropThoseThatLeft();
-    if (order() > m_stride) widen();
-    for (; m_packed < m_ends.size(); ++m_packed)
+    const Side& side = m_sides[m_place[e]];
+    for (int t = side.m_first; t < side.m_end;)
     {
-        const int f = m_ends[m_packed];
-        m_rigid.resize(m_packed);
-        m_rigid.push_back(points.rigid(f));
-        put(Vec3(), m_velocity, m_packed);
-        put(points.read(f, slotVelocity) - velocity(f), m_velocity, m_packed);
-        for (std::size_t k = 0; k <= m_packed; ++k)
-        {
-            const Mat3 w = points.elasticBlock(m_ends[k], f);
-            float *column = block(k, m_packed), *mirrored = block(m_packed, k);
-            for (int c = 0; c < 3; ++c)
-                for (int i = 0; i < 3; ++i)
-                    column[c * m_stride + i] = mirrored[i * m_stride + c] = static_cast<float>(w(i, c));
-        }
+        std::array<Response, kTogether> responses;
+        std::size_t count = 0;
+        for (; t < side.m_end && count < kTogether; ++t)
+            responses[count++] = {&m_W[3 * static_cast<std::size_t>(m_terms[t].m_place) * m_stride], m_stride,
+                                  m_terms[t].m_weight * impulse};
+        addResponses(responses.data(), count, order(), values.data());
     }
 }
 
-// With room for some new sides; compact, because sweeps read all of it repeatedly.
-std::size_t WorkingSet::wantedStride(std::size_t ends) const
+void WorkingSet::pack(const std::vector<double>& slotVelocity)
 {
-    return padded(3 * std::min(ends + ends / 4 + 2, m_place.size()), kResponsePadding);
+    const auto left = std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(0));
+    if (static_cast<double>(left) > kMaxLeft * static_cast<double>(m_ends.size())) dropThoseThatLeft();
+    while (m_sides.size() < m_ends.size()) findTerms(m_ends[m_sides.size()]);
+    if (order() > m_stride) widen();
+    while (m_packed < m_slots.size()) packSlot(slotVelocity);
+}
+
+// The terms of the next side; new slots join the set.
+void WorkingSet::findTerms(int e)
+{
+    const int first = static_cast<int>(m_terms.size());
+    m_points->forEachSlot(e,
+                          [this](int slot, double weight)
+                          {
+                              int& place = m_placeOfSlot[slot];
+                              if (place < 0)
+                              {
+                                  place = static_cast<int>(m_slots.size());
+                                  m_slots.push_back(slot);
+                              }
+                              m_terms.push_back({place, weight});
+                          });
+    m_sides.push_back({first, static_cast<int>(m_terms.size()), m_points->rigid(e)});
+}
+
+// Columns and velocity of the next slot.
+void WorkingSet::packSlot(const std::vector<double>& slotVelocity)
+{
+    const int slot = m_slots[m_packed];
+    const Response whole = m_points->response(slot, {});
+    for (int c = 0; c < 3; ++c)
+    {
+        const float* from = whole.m_columns + c * whole.m_stride;
+        float* column = &m_W[(3 * m_packed + c) * m_stride];
+        for (std::size_t k = 0; k <= m_packed; ++k)
+            for (std::size_t i = 0; i < 3; ++i)
+                column[3 * k + i] = m_W[(3 * k + i) * m_stride + 3 * m_packed + c] = from[3 * m_slots[k] + i];
+    }
+    const RigidSide& rigid = m_points->rigidOfSlot(slot);
+    const Vec3 motion = rigid.component() >= 0 ? rigid.velocity(m_motion[rigid.component()]) : Vec3();
+    for (std::size_t i = 0; i < 3; ++i)
+        m_velocity[3 * m_packed + i] = slotVelocity[3 * slot + i] - motion[static_cast<int>(i)];
+    ++m_packed;
+}
+
+// With room for some new slots; compact, because sweeps read all of it repeatedly.
+std::size_t WorkingSet::wantedStride(std::size_t slots) const
+{
+    return padded(3 * std::min(slots + slots / 4 + 2, m_placeOfSlot.size()), kResponsePadding);
 }
 
 void WorkingSet::widen()
 {
     const std::size_t before = m_stride;
-    m_stride = wantedStride(m_ends.size());
+    m_stride = wantedStride(m_slots.size());
     for (std::size_t column = 3 * m_packed; column-- > 1;)
         std::copy_backward(&m_W[column * before], &m_W[column * before] + 3 * m_packed,
                            &m_W[column * m_stride] + 3 * m_packed);
 }
 
-// Columns, and rows within them, only move towards the front.
 void WorkingSet::dropThoseThatLeft()
 {
-    const auto all =
-        static_cast<std::size_t>(std::count(m_wanted.begin(), m_wanted.end(), static_cast<unsigned char>(1)));
-    const std::size_t stride = std::min(m_stride, wantedStride(all));
-    std::size_t kept = 0, packed = 0;
-    for (std::size_t f = 0; f < m_ends.size(); ++f)
+    m_isKept.assign(m_slots.size(), 0);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < m_ends.size(); ++k)
     {
-        m_place[m_ends[f]] = m_wanted[f] ? static_cast<int>(kept) : -1;
-        if (!m_wanted[f]) continue;
-        if (f < m_packed)
-        {
-            put(at(m_velocity, static_cast<int>(f)), m_velocity, kept);
-            m_rigid[kept] = m_rigid[f];
-            for (int c = 0; c < 3; ++c)
-            {
-                const float* from = &m_W[(3 * f + c) * m_stride];
-                float* to = &m_W[(3 * kept + c) * stride];
-                for (std::size_t e = 0; e < m_packed; ++e, from += 3)
-                {
-                    if (!m_wanted[e]) continue;
-                    for (int i = 0; i < 3; ++i) to[i] = from[i];
-                    to += 3;
-                }
-            }
-            ++packed;
-        }
-        m_ends[kept++] = m_ends[f];
+        const int e = m_ends[k];
+        m_place[e] = m_wanted[k] ? static_cast<int>(kept) : -1;
+        if (!m_wanted[k]) continue;
+        m_ends[kept++] = e;
+        m_points->forEachSlot(e,
+                              [this](int slot, double)
+                              {
+                                  if (m_placeOfSlot[slot] >= 0) m_isKept[m_placeOfSlot[slot]] = 1;
+                              });
     }
     m_ends.resize(kept);
     m_wanted.assign(kept, 1);
-    m_packed = packed;
+    m_sides.clear();
+    m_terms.clear();
+    keepSlots(static_cast<std::size_t>(std::count(m_isKept.begin(), m_isKept.end(), static_cast<unsigned char>(1))));
+}
+
+// Columns, and rows within them, only move towards the front.
+void WorkingSet::keepSlots(std::size_t count)
+{
+    const std::size_t stride = std::min(m_stride, wantedStride(count));
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < m_slots.size(); ++f)
+    {
+        m_placeOfSlot[m_slots[f]] = m_isKept[f] ? static_cast<int>(kept) : -1;
+        if (!m_isKept[f]) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            m_velocity[3 * kept + c] = m_velocity[3 * f + c];
+            const float* from = &m_W[(3 * f + c) * m_stride];
+            float* to = &m_W[(3 * kept + c) * stride];
+            for (std::size_t e = 0; e < m_slots.size(); ++e, from += 3)
+            {
+                if (!m_isKept[e]) continue;
+                for (int i = 0; i < 3; ++i) to[i] = from[i];
+                to += 3;
+            }
+        }
+        m_slots[kept++] = m_slots[f];
+    }
+    m_slots.resize(kept);
+    m_packed = kept;
     m_stride = stride;
 }
 
-void WorkingSet::load(const PointCompliance& points, const std::vector<double>& slotVelocity)
+void WorkingSet::load(const std::vector<double>& slotVelocity)
 {
     std::fill(m_motion.begin(), m_motion.end(), RigidMotion());
-    for (std::size_t k = 0; k < m_ends.size(); ++k) put(points.read(m_ends[k], slotVelocity), m_velocity, k);
+    for (std::size_t k = 0; k < m_slots.size(); ++k)
+        for (std::size_t i = 0; i < 3; ++i) m_velocity[3 * k + i] = slotVelocity[3 * m_slots[k] + i];
 }
 
 void WorkingSet::noteSweep(int slot, bool first)
 {
-    const std::size_t size = 3 * m_ends.size() + 6 * m_motion.size();
+    const std::size_t size = 3 * m_slots.size() + 6 * m_motion.size();
     if (first)
         for (std::vector<double>& delta : m_sweptDelta) delta.assign(size, 0.0);
     m_swept.resize(size);

@@ -26,7 +26,7 @@ void ContactRows::setAxes(const Vec3& n, ContactRow& row)
     row.m_axes[2] = cross(n, row.m_axes[1]);
 }
 
-void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal)
+void ContactRows::assemble(ContactProblem& problem, const ContactSettings& settings, double floor)
 {
     m_problem = &problem;
     m_settings = settings;
@@ -62,7 +62,7 @@ void ContactRows::assemble(ContactProblem& problem, const ContactSettings& setti
     runTasks(settings.m_step.m_threads, static_cast<int>(problem.m_bodies.size()),
              [&](int b)
              {
-                 if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, goal);
+                 if (m_bodies[b].expects()) m_bodies[b].takeExpected(settings.m_step, floor);
              });
     measure();
     forEachChunk(
@@ -140,11 +140,14 @@ void ContactRows::numberJointPoints()
             m_jointPoints.push_back(isPoint(*end) ? m_bodies[end->m_body].addPoint() : -1);
 }
 
+// A movable rigid proxy and the soft side have one point of action: the soft side's distance to it becomes a spin
+// (SoftBodyContacts::addLevers).
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
     const Vec3 at = impulsePoint(contact);
-    const ConstraintSide a = softEnd(contact.m_soft, at, row.m_a.m_end);
     const Vec3 atRigid = (contact.m_isMetLater ? contact.m_point + contact.m_patch : at) + contact.m_approach;
+    const bool moves = contact.m_rigidProxy >= 0 && m_problem->m_rigidProxies[contact.m_rigidProxy].canMove();
+    const ConstraintSide a = softEnd(contact.m_soft, moves ? atRigid : at, row.m_a.m_end);
     const ConstraintSide b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, atRigid)
                                                        : softEnd(contact.m_other, at, row.m_b.m_end);
     row = ContactRow();

@@ -229,12 +229,12 @@ RowSurvey ContactRows::survey()
     return all;
 }
 
-bool ContactRows::apply(const CorrectionGoal& goal, bool steady, ContactReport& report)
+bool ContactRows::apply(double floor, bool steady, ContactReport& report)
 {
     forEachContactBody(m_settings.m_step.m_threads,
                        [&](int b)
                        {
-                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, goal);
+                           m_corrections[b] = m_bodies[b].beginCorrection(m_settings.m_step, floor);
                            m_corrections[b].m_steady = steady;
                        });
     solveCorrections();

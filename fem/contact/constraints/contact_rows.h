@@ -29,9 +29,9 @@ class ContactRows
 {
 public:
     /// Computes sides, frames and compliance of all rows, from free velocities of bodies and present ones of rigid
-    /// proxies. `goal`: required accuracy of the bodies' solves for the initial impulses. The problem must live until
+    /// proxies. `floor`: see SoftBodyContacts::beginCorrection(), for the initial impulses. The problem must live until
     /// the step is over.
-    void assemble(ContactProblem& problem, const ContactSettings& settings, const CorrectionGoal& goal);
+    void assemble(ContactProblem& problem, const ContactSettings& settings, double floor);
 
     ContactProblem& problem() const { return *m_problem; }
     const ContactSettings& settings() const { return m_settings; }
@@ -155,9 +155,9 @@ public:
     /// Maximum of these, without joints within their limits, relative to the scale.
     double error();
 
-    /// Solves the bodies' true systems for the new impulses. `steady`: all impulses are those of a step similar to the
-    /// previous one. Returns whether the rows' compliance has changed.
-    bool apply(const CorrectionGoal& goal, bool steady, ContactReport& report);
+    /// Solves the bodies' true systems for the new impulses; `floor` as in assemble(). `steady`: all impulses are those
+    /// of a step similar to the previous one. Returns whether the rows' compliance has changed.
+    bool apply(double floor, bool steady, ContactReport& report);
 
     /// True if a body has responded less than its compliance predicted: each outer iteration then removes only part of
     /// the error.

@@ -35,9 +35,9 @@ void CoarseCorrection::begin()
         if (k == 0 || !sharesOwners(all[k], all[k - 1])) ++pairs;
     for (std::size_t b = 0; b < m_rows.problem().m_bodies.size(); ++b)
     {
-        SoftBodyContacts& body = m_rows.body(static_cast<int>(b));
-        longest = std::max(longest, static_cast<std::size_t>(body.size()));
-        components = std::max(components, body.working().components());
+        const WorkingSet& set = m_rows.body(static_cast<int>(b)).working();
+        longest = std::max(longest, set.maxOrder());
+        components = std::max(components, set.components());
     }
     m_motions.reserve(components);
     m_patterns.reserve(rows);
@@ -46,8 +46,7 @@ void CoarseCorrection::begin()
     m_first.reserve(pairs);
     m_held.reserve(kUnknowns * pairs);
     m_unknowns.reserve(kUnknowns * pairs);
-    m_responses.reserve(rows);
-    m_velocity.reserve(padded(3 * longest, kResponsePadding));
+    m_velocity.reserve(longest);
     // A factor of bandwidth w pairs takes 36 w^2 multiplications per pair, and has 4 w blocks: an upper bound by the
     // Cauchy-Schwarz inequality.
     const double widths = std::sqrt(static_cast<double>(pairs) * kMaxCoarseWork / 36);
@@ -248,8 +247,11 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
     const Range rows = m_pairs[side.m_pair].m_rows;
     const int bodies = static_cast<int>(m_rows.problem().m_bodies.size());
     Vec3 force, torque;
-    m_responses.clear();
-    if (side.m_owner < bodies) m_motions.assign(m_rows.body(side.m_owner).working().components(), RigidMotion());
+    if (side.m_owner < bodies)
+    {
+        m_motions.assign(m_rows.body(side.m_owner).working().components(), RigidMotion());
+        m_velocity.assign(m_rows.body(side.m_owner).working().order(), 0.0);
+    }
     for (int k = rows.m_begin; k < rows.m_end; ++k)
     {
         if (!m_patterns[k].m_carries) continue;
@@ -258,18 +260,13 @@ void CoarseCorrection::respond(const std::vector<int>& working, const Side& side
         if (side.m_owner < bodies)
         {
             const WorkingSet& set = m_rows.body(side.m_owner).working();
-            m_responses.push_back(set.response(end.m_end, impulse));
+            set.respond(end.m_end, impulse, m_velocity);
             set.pushRigid(end.m_end, impulse, m_motions);
         }
         force += impulse;
         torque += cross(end.m_arm, impulse);
     }
-    if (side.m_owner < bodies)
-    {
-        m_velocity.assign(m_rows.body(side.m_owner).working().order(), 0.0);
-        addResponses(m_responses.data(), m_responses.size(), m_velocity.size(), m_velocity.data());
-        return;
-    }
+    if (side.m_owner < bodies) return;
     const RigidProxy& rigidProxy = m_rows.problem().m_rigidProxies[side.m_owner - bodies];
     m_linear = scaled(rigidProxy.m_inverseMass, force);
     m_angular = rigidProxy.m_inverseInertia * torque;

@@ -83,7 +83,6 @@ private:
     EnvelopeFactor m_factor;
     std::vector<unsigned char> m_held;
     std::vector<double> m_unknowns;
-    std::vector<Response> m_responses;
     std::vector<double> m_velocity;      // elastic velocities of the working set of one body
     std::vector<RigidMotion> m_motions;  // and its rigid motions
     Vec3 m_linear, m_angular;            // velocity of one rigid proxy

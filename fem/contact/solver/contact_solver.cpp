@@ -76,7 +76,6 @@ struct ContactSolver::Scratch
     bool m_holdsSoft = false;  // joints hold soft bodies
     bool m_isCalm = false;     // the warm start was accurate
     double m_goal = 0;         // error at which outer iterations end
-    bool m_loose = false;      // the last corrective solves were loose
     double m_floor = 0;        // share of a body's impulses that residuals are measured against
     SweepProgress m_progress;
     bool m_stalled = false;
@@ -84,7 +83,21 @@ struct ContactSolver::Scratch
     bool m_begins = false;       // no sweep has been made since the bodies' true velocities were measured
     bool m_empty = true;
     bool m_isAlone = false;  // there are no rows of a caller
+
+    bool settleRigid();
 };
+
+// Solves what moves rigid bodies alone for the warm start of the rest: joints have none, and without them the first
+// sweep would undo that of the contacts. True if there is any.
+bool ContactSolver::Scratch::settleRigid()
+{
+    const bool joints = !m_problem->m_joints.empty() && !m_holdsSoft;
+    if (joints) m_sweeps.joints().solve();
+    const bool contacts = m_rows.settleRigidContacts();
+    if (joints && contacts) m_sweeps.joints().solve();
+    if (joints) m_gcr.look(true);
+    return joints || contacts;
+}
 
 double residualFloor(double contactTolerance, double solveTolerance)
 {
@@ -127,14 +140,14 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     const auto holdsSoft = [](const Joint& joint) { return joint.m_a.m_body >= 0 || joint.m_b.m_body >= 0; };
     s.m_holdsSoft = std::any_of(problem.m_joints.begin(), problem.m_joints.end(), holdsSoft);
     s.m_floor = s.m_holdsSoft ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
-    s.m_rows.assemble(problem, settings, {s.m_floor, 0});
+    s.m_rows.assemble(problem, settings, s.m_floor);
     s.m_sweeps.begin();
     s.m_gcr.begin();
     s.m_push.begin();
     s.m_error = 1;
     s.m_isCalm = false;
     s.m_progress = {};
-    s.m_stalled = s.m_loose = s.m_othersMoved = false;
+    s.m_stalled = s.m_othersMoved = false;
     const double missing = s.m_rows.missingSpeed();
     s.m_rows.setSpeedScale(missing);
     // The warm start is first tested on the true system, so that W serves only for the difference.
@@ -147,7 +160,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
         s.m_sweeps.measure();
         s.m_gcr.look();
     }
-    if (s.m_rows.settleRigidContacts() || !guesses) s.m_found = s.m_sweeps.look();
+    if (s.settleRigid() || !guesses) s.m_found = s.m_sweeps.look();
     // A warm start that is balanced up to one per cent may leave a stiff body a thousand times the missing speed.
     s.m_rows.setSpeedScale(std::min(missing, std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed())));
     const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
@@ -239,7 +252,7 @@ bool ContactSolver::needsOuterIteration() const
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
     const int most = (errorOfJoints() > kJointTolerance ? kMoreRounds : 1) * s.m_settings.m_maxRounds;
-    return rounds < s.m_settings.m_rounds || (rounds < most && (s.m_loose || (s.m_error > s.m_goal && !s.m_stalled)));
+    return rounds < s.m_settings.m_rounds || (rounds < most && s.m_error > s.m_goal && !s.m_stalled);
 }
 
 bool ContactSolver::sweep(double others)
@@ -247,7 +260,7 @@ bool ContactSolver::sweep(double others)
     Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     ++s.m_report.m_sweeps;
-    if (s.m_begins) s.m_gcr.combine();
+    if (s.m_begins && s.m_holdsSoft) s.m_gcr.combine();
     s.m_begins = false;
     const double tolerance = s.m_settings.m_tolerance;
     const double othersChange = s.m_rows.share(others);
@@ -278,10 +291,7 @@ void ContactSolver::correct(bool steady)
     s.m_progress = {};
     if (s.m_isCalm) s.m_sweeps.end();
     if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
-    const bool wasLoose = s.m_loose;
-    s.m_loose = !s.m_holdsSoft && !steady && s.m_report.m_rounds < s.m_settings.m_maxRounds &&
-                s.m_error > kFarFromTolerance * s.m_settings.m_tolerance;
-    if (s.m_rows.apply({s.m_floor, s.m_loose ? kLooseShare : 0}, steady, s.m_report)) s.m_sweeps.joints().reform();
+    if (s.m_rows.apply(s.m_floor, steady, s.m_report)) s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
     s.m_gcr.look(s.m_othersMoved);
     s.m_othersMoved = false;
@@ -292,8 +302,8 @@ void ContactSolver::correct(bool steady)
     s.m_goal = s.m_settings.m_tolerance;
     const double share = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
     const double small = s.m_rows.isTooSoft() ? kSmallErrorWhereSoft : kSmallError;
-    s.m_stalled = s.m_isAlone && !wasLoose && s.m_report.m_rounds > s.m_settings.m_rounds + 1 &&
-                  s.m_error > share * before && s.m_error < small && errorOfJoints() <= kJointTolerance;
+    s.m_stalled = s.m_isAlone && s.m_report.m_rounds > s.m_settings.m_rounds + 1 && s.m_error > share * before &&
+                  s.m_error < small && errorOfJoints() <= kJointTolerance;
     noteBest();
 }
 
@@ -301,7 +311,7 @@ ContactReport ContactSolver::finish()
 {
     Scratch& s = *m_scratch;
     if (s.m_empty) return s.m_report;
-    if (s.m_begins && errorOfJoints() > kJointTolerance && s.m_gcr.isBestBehind())
+    if (s.m_begins && s.m_holdsSoft && errorOfJoints() > kJointTolerance && s.m_gcr.isBestBehind())
     {
         s.m_gcr.takeBest();
         correct();

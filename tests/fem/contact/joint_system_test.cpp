@@ -183,7 +183,7 @@ protected:
     void assemble(ContactRows& rows)
     {
         m_scene.m_problem.m_bodies = {{&m_scene.m_body, m_scene.m_cache.get()}};
-        rows.assemble(m_scene.m_problem, m_scene.m_settings, {});
+        rows.assemble(m_scene.m_problem, m_scene.m_settings, 0);
     }
 
     const Mat3 m_turn = rotationAbout({0.3, -0.5, 0.8}, 0.7), m_axes = rotationAbout({1, 2, 0}, 1.1);

@@ -67,5 +67,42 @@ INSTANTIATE_TEST_SUITE_P(Cubes, DeepPair,
                                     std::to_string(std::get<2>(suite.param)) + "cells";
                          });
 
+// A rigid box that a program puts into a soft cube has no way out that contacts know: it is told in every step.
+TEST(DeepRigid, IsToldInEveryStepAndNeverSleeps)
+{
+    for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
+        for (const double half : {0.03, 0.09})
+        {
+            SCOPED_TRACE(testing::Message() << couplingName(coupling) << ", half " << half);
+            FemWorld world(WorldClass::softRigid, coupling);
+            world.addPlane();
+            SoftBox box;
+            box.m_size = {0.2, 0.2, 0.2};
+            box.m_cells = {4, 4, 4};
+            box.m_center = {0, 0, 0.1};
+            box.m_youngModulus = btScalar(1e5);
+            btSoftBody& cube = addSoftBox(world, world.fem(), box);
+            cube.forceActivationState(ACTIVE_TAG);
+            world.step(30);
+            RigidSettings settings;
+            settings.m_mass = 2;
+            settings.m_transform.setIdentity();
+            settings.m_transform.setOrigin(btVector3(btScalar(0.01), 0, btScalar(0.1)));
+            btRigidBody& inside =
+                world.addRigid(new btBoxShape(btVector3(btScalar(half), btScalar(half), btScalar(half))), settings);
+            for (int k = 0; k < 240; ++k)
+            {
+                world.step();
+                ASSERT_LT(fastestNode(cube), 3) << k;
+                if (norm(centerOf(cube) - vec3(inside.getCenterOfMassPosition())) > 0.12) break;  // it has come out
+                ASSERT_TRUE(world.fem().stepReport(&cube).m_flags & BT_FEM_PENETRATING) << k;
+                ASSERT_TRUE(cube.isActive()) << k;
+            }
+            world.deleteRigid(inside);
+            world.step(240);
+            EXPECT_FALSE(cube.isActive());  // and sleeps as soon as it is gone
+        }
+}
+
 }  // namespace
 }  // namespace bullet_fem

@@ -97,6 +97,20 @@ btRigidBody& addThinPlate(FastScene& scene, double mass)
     return scene.m_world.addRigid(new btBoxShape(btVector3(btScalar(0.5), btScalar(0.5), btScalar(0.0025))), settings);
 }
 
+btRigidBody& addKinematicWall(FastScene& scene, double half, double place)
+{
+    btRigidBody& wall =
+        scene.m_world.addRigid(new btBoxShape(btVector3(btScalar(half), 1, 1)), {0, at(btScalar(place), 0, 0)});
+    wall.setCollisionFlags(wall.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    wall.setActivationState(DISABLE_DEACTIVATION);
+    return wall;
+}
+
+btSoftBody& addSmallCube(FastScene& scene)
+{
+    return scene.addSoft(makeBox({0.1, 0.1, 0.1}, {2, 2, 2}, {-0.05, -0.05, -0.05}));
+}
+
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(, Tunnelling, testing::Values(Coupling::swap, Coupling::coupled),
@@ -111,12 +125,9 @@ TEST_P(Tunnelling, AKinematicWallAt100DoesNotPassACube)
             {
                 SCOPED_TRACE(testing::Message() << "half " << half << ", start " << start << ", asleep " << sleeps);
                 FastScene scene(GetParam());
-                btSoftBody& cube = scene.addSoft(makeBox({0.1, 0.1, 0.1}, {2, 2, 2}, {-0.05, -0.05, -0.05}));
+                btSoftBody& cube = addSmallCube(scene);
                 double place = -half - 0.1 - 1.7 - 0.28 * start;
-                btRigidBody& wall = scene.m_world.addRigid(new btBoxShape(btVector3(btScalar(half), 1, 1)),
-                                                           {0, at(btScalar(place), 0, 0)});
-                wall.setCollisionFlags(wall.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-                wall.setActivationState(DISABLE_DEACTIVATION);
+                btRigidBody& wall = addKinematicWall(scene, half, place);
                 if (sleeps) scene.m_world.step();
                 if (sleeps) cube.forceActivationState(ISLAND_SLEEPING);
                 for (int k = 0; k < 4; ++k)
@@ -128,6 +139,20 @@ TEST_P(Tunnelling, AKinematicWallAt100DoesNotPassACube)
                 EXPECT_GT(centerOf(cube).x, place + half);
                 EXPECT_TRUE(allFinite(cube));
             }
+}
+
+// Set as the interpolation transform, too, a new place is no motion.
+TEST_P(Tunnelling, AKinematicWallThatJumpsLeavesACubeBetween)
+{
+    FastScene scene(GetParam());
+    const btSoftBody& cube = addSmallCube(scene);
+    btRigidBody& wall = addKinematicWall(scene, 0.01, -1);
+    scene.m_world.step();
+    wall.getMotionState()->setWorldTransform(at(1, 0, 0));
+    wall.setInterpolationWorldTransform(at(1, 0, 0));
+    scene.m_world.step();
+    EXPECT_LT(norm(centerOf(cube)), 1e-6);
+    EXPECT_EQ(norm(vec3(wall.getLinearVelocity())), 0);
 }
 
 TEST_P(Tunnelling, ASoftBallAt50DoesNotPassAThinPlate)

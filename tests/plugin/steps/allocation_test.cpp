@@ -4,6 +4,7 @@
 // Steps of a world allocate nothing. A separate program: the counter replaces malloc.
 #include <gtest/gtest.h>
 
+#include "BulletDynamics/Featherstone/btMultiBodyJointMotor.h"
 #include "BulletSoftBody/btSoftBodyHelpers.h"
 #include "bullet_fem/btFemFracture.h"
 #include "bullet_fem/btFemHelpers.h"
@@ -372,6 +373,58 @@ TEST(Allocations, AreNoneForMultibodyLinks)
     world.step(60);  // until each kind of event has happened
     EXPECT_GT(expectNoAllocations(fem, world, {&cube}, 60), 30);
     EXPECT_GT(fem.touches(&cube).size(), 0);
+}
+
+/// Counts allocations from the free motion to the end of the solve of islands with FEM bodies.
+class CountingLinkSolver : public btFemMultiBodyConstraintSolver
+{
+public:
+    using btFemMultiBodyConstraintSolver::btFemMultiBodyConstraintSolver;
+
+    void solveMultiBodyGroup(btCollisionObject** bodies, int numBodies, btPersistentManifold** manifolds,
+                             int numManifolds, btTypedConstraint** constraints, int numConstraints,
+                             btMultiBodyConstraint** multiBodyConstraints, int numMultiBodyConstraints,
+                             const btContactSolverInfo& info, btIDebugDraw* debugDrawer,
+                             btDispatcher* dispatcher) override
+    {
+        const AllocationCounter counter;
+        btFemMultiBodyConstraintSolver::solveMultiBodyGroup(bodies, numBodies, manifolds, numManifolds, constraints,
+                                                            numConstraints, multiBodyConstraints,
+                                                            numMultiBodyConstraints, info, debugDrawer, dispatcher);
+        m_allocations += counter.count();
+    }
+
+    static long m_allocations;
+};
+
+long CountingLinkSolver::m_allocations = 0;
+
+// A motor, a contact between links and one with a rigid body are rows of the contact problem.
+TEST(Allocations, AreNoneForRowsOfMultibodies)
+{
+    btFemSoftBodySolver fem;
+    LinkWorld<btSoftMultiBodyDynamicsWorld, CountingLinkSolver, btFemSoftBodySolver> world(fem);
+    const btVector3 half(1, 1, btScalar(0.1)), inertia(1, 1, 1), up(0, 0, 1), none(0, 0, 0);
+    const btQuaternion noTurn = btQuaternion::getIdentity();
+    auto* body = new btMultiBody(2, 0, none, true, false);
+    body->setupPrismatic(0, 50, inertia, -1, noTurn, up, none, none, false);
+    body->setupPrismatic(1, 50, inertia, -1, noTurn, up, btVector3(0, 0, btScalar(0.2)), none, false);
+    body->setHasSelfCollision(true);
+    world.addMultiBody(body);
+    for (const int link : {0, 1}) world.addCollider(*body, link, new btBoxShape(half));
+    world.addConstraint<btMultiBodyJointMotor>(body, 0, btScalar(0), btScalar(1e4));
+    btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), btVector3(0, 0, btScalar(0.8)),
+                                                             btVector3(0.5, 0.5, 0.5), btScalar(0.25)));
+    RigidSettings settings;
+    settings.m_mass = 10;
+    settings.m_transform = at(btScalar(0.7), 0, btScalar(0.4));
+    world.addRigid(new btBoxShape(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1))), settings);
+    world.step(60);                                   // until each kind of event has happened
+    EXPECT_GT(CountingLinkSolver::m_allocations, 0);  // checks that allocations are counted
+    EXPECT_GT(fem.touches(&cube).size(), 0);
+    CountingLinkSolver::m_allocations = 0;
+    world.step(30);
+    EXPECT_EQ(CountingLinkSolver::m_allocations, 0);
 }
 
 TEST(Allocations, AreNoneForRepeatedReactionQueries)

@@ -102,7 +102,7 @@ struct ContactPoint
     Vec3 m_approach;
     /// Added to m_point for the lever arms of both sides: the offset to the origin of a moving contact patch [m].
     Vec3 m_patch;
-    /// The rigid proxy's arm reaches to m_point + m_patch + m_approach, whatever the soft side's.
+    /// The impulse acts at m_point + m_patch + m_approach on a movable rigid proxy and on the soft side.
     bool m_isMetLater = false;
     Vec3 m_arm;                ///< output: lever arm of the rigid proxy, from its centre [m]
     Vec3 m_normal;             ///< unit normal [-], from the other side to m_soft
