@@ -63,12 +63,17 @@ HWY_NOINLINE void prefetchBodies(const LaneBlock& block)
     }
 }
 
-HWY_NOINLINE void rotate(const LaneBlock& block)
+HWY_NOINLINE void gatherRotations(const LaneBlock& block)
 {
     const float* before[kBatchWidth];
     for (int b = 0; b < kBatchWidth; ++b) before[b] = &block.m_pass.m_rotationBefore[b][block.m_first].x;
     for (int e = 0; e < block.m_count; ++e)  // one exchange block holds a quaternion
         gatherBlocks(before, 4 * e, block.element(e * kVectors).rotations(), kBatchWidth);
+}
+
+HWY_NOINLINE void rotate(const LaneBlock& block)
+{
+    gatherRotations(block);
     for (int k = 0; k < block.vectors(); ++k)
     {
         const LaneElement element = block.element(k);
@@ -100,13 +105,11 @@ HWY_INLINE void forEachPatch(const BatchElements& all, const PatchGroup& group, 
     }
 }
 
-// Adds the elastic forces of patches, and stores elastic stresses in place of tensions. Patch: PatchStrains or
-// PatchAssumed.
-template <class Patch>
+// Adds the elastic forces of patches, and stores elastic stresses in place of tensions.
 HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPass& pass, int index)
 {
     const PatchGroup& group = all.m_rest->m_groups[index];
-    Patch patch;
+    PatchStrains<float> patch;
     forEachPatch(all, group,
                  [&](int first)
                  {
@@ -123,6 +126,36 @@ HWY_NOINLINE void addPatchForces(const BatchElements& all, const BatchElementPas
                              const LaneElement element = {all, &pass, e, body, all.m_lanes->isCopy(e), index};
                              element.storeTension(patch.finish(k, element));
                          }
+                     }
+                 });
+}
+
+// As addPatchForces(), with assumed strains; turns the frames of the patches.
+HWY_NOINLINE void addAssumedForces(const BatchElements& all, const BatchElementPass& pass, int index)
+{
+    const int count = all.m_rest->m_groups[index].m_blocks;
+    PatchAssumed<float> patch;
+    forEachPatch(all, all.m_rest->m_groups[index],
+                 [&](int first)
+                 {
+                     for (int body = 0; body < kBatchWidth; body += width<float>())
+                     {
+                         const auto element = [&](int k)
+                         {
+                             const int e = first + k * kLanes;
+                             return LaneElement{all, &pass, e, body, all.m_lanes->isCopy(e), index};
+                         };
+                         for (int k = 0; k < count; ++k) patch.addGradient(k, element(k));
+                         Quaternions<float> q = element(0).loadRotations();
+                         polarRotations(&patch.m_gradient.m_mean, 1, &q);
+                         patch.setFrame(q);
+                         for (int k = 0; k < count; ++k)
+                         {
+                             element(k).storeRotations(q);
+                             patch.add(k, element(k));
+                         }
+                         for (int k = 0; k < count; ++k) patch.respond(k, element(k));
+                         for (int k = 0; k < count; ++k) element(k).storeTension(patch.finish(k, element(k)));
                      }
                  });
 }
@@ -177,6 +210,7 @@ HWY_INLINE void finishBlock(const LaneBlock& block)
 
 HWY_INLINE void passPatches(const BatchElements& all, const BatchElementPass& pass)
 {
+    const bool isAssumed = !all.m_rest->m_filter.empty();
     for (int index = 0; index < static_cast<int>(all.m_rest->m_groups.size()); ++index)
     {
         const PatchGroup& group = all.m_rest->m_groups[index];
@@ -184,12 +218,15 @@ HWY_INLINE void passPatches(const BatchElements& all, const BatchElementPass& pa
         for (int k = 0; k < group.m_blocks; ++k)
         {
             prefetchBodies(block(k));
-            rotate(block(k));
+            if (isAssumed)
+                gatherRotations(block(k));
+            else
+                rotate(block(k));
         }
-        if (all.m_rest->m_filter.empty())
-            addPatchForces<PatchStrains<float> >(all, pass, index);
+        if (isAssumed)
+            addAssumedForces(all, pass, index);
         else
-            addPatchForces<PatchAssumed<float> >(all, pass, index);
+            addPatchForces(all, pass, index);
         for (int k = 0; k < group.m_blocks; ++k) finishBlock(block(k));
     }
 }

@@ -151,14 +151,19 @@ void advanceAll(Body& body, const StepSettings& settings)
             if (!lanes.isCopy(lane)) inelastic.advance(lanes.m_element[lane], strainAt(scratch.m_strain, lane));
     };
     const RestShape& shape = body.m_model->shape();
-    const bool isAssumed = !shape.m_assumedStrain.empty();
-    runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk},
-              [&](Range blocks)
-              {
-                  runElementStrains(strains, blocks);
-                  if (!isAssumed) advance(blocks);
-              });
-    if (!isAssumed) return;
+    if (shape.m_assumedStrain.empty())
+    {
+        runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk},
+                  [&](Range blocks)
+                  {
+                      runElementStrains(strains, blocks);
+                      advance(blocks);
+                  });
+        return;
+    }
+    const ElementBlocks<Real>& units = elements.blocks<Real>();
+    runRanges(settings.m_threads, {units.workUnitCount(), units.workUnitsPerChunk()},
+              [&](Range groups) { runElementStrains(strains, groups); });
     runRanges(settings.m_threads, {shape.m_patches.count(), kPatchesPerChunk},
               [&](Range patches) { assumeStrains(shape, lanes, patches, scratch.m_strain); });
     runRanges(settings.m_threads, {elements.blockCount(), kBlocksPerChunk}, advance);

@@ -50,7 +50,7 @@ HWY_INLINE Symmetric<Real> noStrain()
     return {zero, zero, zero, zero, zero, zero};
 }
 
-/// V times the stress of Hooke's law that does the work of the assumed strain, in the element's frame, for the
+/// V times the stress of Hooke's law that does the work of the assumed strain, in the patch's frame, for the
 /// element's strain E and the patch's mean strain, with doubled shears: V C mean + 2 mu V H^2 (E - mean). The moduli
 /// include V; entry(k) are those of ElementBlocks::m_filter.
 template <class Real, class Entry>
@@ -62,21 +62,63 @@ HWY_INLINE Symmetric<Real> assumedStress(Vector<Real> lambda, Vector<Real> mu, c
                           hooke<Real>(lambda, mu, mean));
 }
 
-/// The elements of a patch, as PatchStrains, in the elements' frames. Stores rotations R in place of gradients, and
-/// tensions in the element's frame. Elements also have hasInitialStress(), initialStress(), storeRotation(),
-/// loadRotation() and filter(k), entry k of ElementBlocks::m_filter.
+/// P + [w]x.
+template <class Real>
+HWY_INLINE Matrix<Real> plusSpin(Matrix<Real> P, const Vector<Real> (&w)[3])
+{
+    P.m[0][1] = P.m[0][1] - w[2], P.m[1][0] = P.m[1][0] + w[2];
+    P.m[0][2] = P.m[0][2] + w[1], P.m[2][0] = P.m[2][0] - w[1];
+    P.m[1][2] = P.m[1][2] - w[0], P.m[2][1] = P.m[2][1] + w[0];
+    return P;
+}
+
+/// Mean deformation gradient of a patch; for columns of copies, whose shares are 0, that of the first.
+template <class Real>
+struct MeanGradient
+{
+    HWY_INLINE MeanGradient() = default;  // an implicit one would not be compiled for the instruction set
+
+    HWY_INLINE void add(int k, Vector<Real> share, const Matrix<Real>& F)
+    {
+        if (k == 0) m_first = m_mean = F;
+        HWY_UNROLL(9)
+        for (int i = 0; i < 9 && k > 0; ++i)
+            m_mean.m[i / 3][i % 3] =
+                hn::MulAdd(share, F.m[i / 3][i % 3] - m_first.m[i / 3][i % 3], m_mean.m[i / 3][i % 3]);
+    }
+
+    Matrix<Real> m_first, m_mean;
+};
+
+/// The elements of a patch, as PatchStrains, in the frame of the patch (AssumedStrain). First addGradient() for all,
+/// then setFrame() with the polar rotation of m_gradient.m_mean, add() for all, respond() for all, and finish(). Stores
+/// rotations R in place of gradients, and tensions in the frame. Elements also have hasInitialStress(),
+/// initialStress(), storeRotation(), loadRotation() and filter(k), entry k of ElementBlocks::m_filter.
 template <class Real>
 struct PatchAssumed
 {
     HWY_INLINE PatchAssumed() : m_mean(noStrain<Real>()), m_dampedMean(m_mean) {}
 
     template <class Elements>
-    HWY_INLINE void add(int k, const Elements& elements, const Quaternions<Real>& q)
+    HWY_INLINE void addGradient(int k, const Elements& elements)
     {
-        const Matrix<Real> R = toMatrix(q, number<Real>(2)), DmInverse = elements.DmInverse();
-        m_strain[k] = strainInFrameOf(R, times(edgesMinusRotated(elements, q), DmInverse));
-        const Symmetric<Real> rate = strainInFrameOf(R, times(elements.velocityEdges(), DmInverse));
-        elements.storeRotation(R);
+        m_gradient.add(k, elements.share(), times(roundedEdges<Real>(elements), elements.DmInverse()));
+    }
+
+    HWY_INLINE void setFrame(const Quaternions<Real>& q)
+    {
+        m_q = q;
+        m_R = toMatrix(q, number<Real>(2));
+    }
+
+    template <class Elements>
+    HWY_INLINE void add(int k, const Elements& elements)
+    {
+        const Matrix<Real> DmInverse = elements.DmInverse();
+        m_displacement[k] = inFrameOf(m_R, times(edgesMinusRotated(elements, m_q), DmInverse));
+        m_strain[k] = doubledPart(m_displacement[k]);
+        const Symmetric<Real> rate = strainInFrameOf(m_R, times(elements.velocityEdges(), DmInverse));
+        elements.storeRotation(m_R);
         m_damped[k] = combined<Real>(elements.damping(), rate, number<Real>(1), m_strain[k]);
         const Vector<Real> share = elements.share();
         m_mean = k == 0 ? times<Real>(m_strain[k], share) : combined<Real>(share, m_strain[k], number<Real>(1), m_mean);
@@ -84,38 +126,54 @@ struct PatchAssumed
                               : combined<Real>(share, m_damped[k], number<Real>(1), m_dampedMean);
     }
 
-    /// Stores the forces of element k, f_a = -R (stress + W) g_a with the skew W that makes the element's torque zero
-    /// (withInitialStress()), and returns its stress.
+    /// Finds the elastic stress of element k.
     template <class Elements>
-    HWY_INLINE Symmetric<Real> finish(int k, const Elements& elements) const
+    HWY_INLINE void respond(int k, const Elements& elements)
     {
         const auto filter = [&elements](int entry) { return elements.filter(entry); };
-        const Vector<Real> lambda = elements.lambda(), mu = elements.mu();
-        Symmetric<Real> stress = assumedStress<Real>(lambda, mu, filter, m_strain[k], m_mean);
-        Symmetric<Real> damped = assumedStress<Real>(lambda, mu, filter, m_damped[k], m_dampedMean);
-        if (elements.hasInitialStress())
-        {
-            const Symmetric<Real> initial = elements.initialStress();
-            stress = plus(stress, initial);
-            damped = plus(damped, initial);
-        }
-        Vector<Real> w[3];
-        balanceTorque(m_strain[k], stress, w);
-        const Matrix<Real> minusP = {{{hn::Neg(damped.xx), w[2] - damped.xy, hn::Neg(w[1] + damped.xz)},
-                                      {hn::Neg(w[2] + damped.xy), hn::Neg(damped.yy), w[0] - damped.yz},
-                                      {w[1] - damped.xz, hn::Neg(w[0] + damped.yz), hn::Neg(damped.zz)}}};
-        elements.storeForces(times(elements.loadRotation(), timesTranspose(minusP, elements.DmInverse())));
-        return stress;
+        m_stress[k] = assumedStress<Real>(elements.lambda(), elements.mu(), filter, m_strain[k], m_mean);
+        if (elements.hasInitialStress()) m_stress[k] = plus(m_stress[k], elements.initialStress());
+        const Matrix<Real> torque = times(m_displacement[k], full(m_stress[k]));
+        m_torque = k == 0 ? torque : plus(m_torque, torque);
     }
 
+    /// Stores the forces of element k, f_a = -R (stress + share W) g_a with the skew W that makes the patch's torque
+    /// zero: (tr(S) I - S) w = axl(M - M^T), M the sum of (R^T F) stress. Returns the elastic stress.
     template <class Elements>
-    HWY_INLINE void storeTension(const Elements& elements, const Symmetric<Real>& tension) const
+    HWY_INLINE Symmetric<Real> finish(int k, const Elements& elements)
     {
-        elements.storeTension(tension);
+        if (k == 0) balance();
+        const auto filter = [&elements](int entry) { return elements.filter(entry); };
+        Symmetric<Real> damped =
+            assumedStress<Real>(elements.lambda(), elements.mu(), filter, m_damped[k], m_dampedMean);
+        if (elements.hasInitialStress()) damped = plus(damped, elements.initialStress());
+        const Vector<Real> minusShare = hn::Neg(elements.share());
+        const Vector<Real> w[3] = {minusShare * m_w[0], minusShare * m_w[1], minusShare * m_w[2]};
+        const Matrix<Real> minusP = plusSpin<Real>(full(times<Real>(damped, number<Real>(-1))), w);
+        elements.storeForces(times(m_R, timesTranspose(minusP, elements.DmInverse())));
+        return m_stress[k];
     }
 
-    Symmetric<Real> m_strain[ElementPatches::kMax], m_damped[ElementPatches::kMax];
+    MeanGradient<Real> m_gradient;
+
+private:
+    HWY_INLINE void balance()
+    {
+        const SpinMatrix<Real> spin(m_mean);
+        const Symmetric<Real>& A = spin.m_adjugate;
+        const Matrix<Real>& M = m_torque;
+        const Vector<Real> a = M.m[2][1] - M.m[1][2], b = M.m[0][2] - M.m[2][0], c = M.m[1][0] - M.m[0][1];
+        m_w[0] = spin.m_inverse * dot3(A.xx, a, A.xy, b, A.xz, c);
+        m_w[1] = spin.m_inverse * dot3(A.xy, a, A.yy, b, A.yz, c);
+        m_w[2] = spin.m_inverse * dot3(A.xz, a, A.yz, b, A.zz, c);
+    }
+
+    Matrix<Real> m_displacement[ElementPatches::kMax];  // R^T F - I
+    Symmetric<Real> m_strain[ElementPatches::kMax], m_damped[ElementPatches::kMax], m_stress[ElementPatches::kMax];
     Symmetric<Real> m_mean, m_dampedMean;
+    Quaternions<Real> m_q;
+    Matrix<Real> m_R, m_torque;
+    Vector<Real> m_w[3];
 };
 
 /// The elements of a patch in a product with K'.

@@ -83,7 +83,7 @@ SingleLane singleLane(const RestShape& shape, int e)
     lane.m_law = &law;
     lane.m_volume = shape.m_elements[e].m_volume;
     lane.m_mu = material.lameMu();
-    lane.m_size = std::cbrt(shape.m_mesh.tetVolume(e));
+    lane.m_size = shape.lawSizeOf(e);
     lane.m_history = static_cast<std::size_t>(e) * shape.m_materials.historyCount();
     lane.m_constants = material.m_lawConstants;
     return lane;
@@ -143,10 +143,11 @@ void ElementBlocks<Real>::takeFilters(const RestShape& shape, const ElementLanes
         for (int lane = 0; lane < kLanes; ++lane)
         {
             const int e = lanes.m_element[m_groups[group].m_firstBlock * kLanes + lane];
-            const std::array<double, AssumedStrain::kEntries> square =
-                shape.m_assumedStrain.square(shape.m_patches.m_patch[e]);
+            const int patch = shape.m_patches.m_patch[e];
+            const std::array<double, AssumedStrain::kEntries> H =
+                assumesForAnyLaw() ? shape.m_assumedStrain.m_filter[patch] : shape.m_assumedStrain.square(patch);
             for (int k = 0; k < AssumedStrain::kEntries; ++k)
-                m_filter[group].m_entry[k][lane] = static_cast<Real>(square[k]);
+                m_filter[group].m_entry[k][lane] = static_cast<Real>(H[k]);
         }
 }
 

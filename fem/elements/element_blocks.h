@@ -105,7 +105,7 @@ struct alignas(64) StiffnessBlock
     Real m_entry[kStiffnessEntries][kLanes];
 };
 
-/// H^2 of kLanes patches (AssumedStrain), as AssumedStrain::m_filter has H.
+/// H or H^2 of kLanes patches (AssumedStrain), as AssumedStrain::m_filter has H.
 template <class Real>
 struct alignas(64) FilterLanes
 {
@@ -121,6 +121,8 @@ struct ElementBlocks
 
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
     bool hasPatches() const { return !m_groups.empty(); }
+    /// True if assumed strains are those of an AssumedPass, for laws other than Hooke's.
+    bool assumesForAnyLaw() const { return !m_filter.empty() && !(m_law.empty() && m_stiffness.empty()); }
     /// Number of work units that kernels divide into ranges: blocks, or groups of blocks with patches.
     int workUnitCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }
     /// Number of work units that hold about kBlocksPerChunk blocks, >= 1.
@@ -132,7 +134,8 @@ struct ElementBlocks
     std::vector<SingleLane> m_single;   ///< one per lane; empty if no law is evaluated one element at a time
     /// One a block: share of each element in its patch's volume [-]; empty without patches.
     std::vector<PatchShares<Real>> m_share;
-    std::vector<FilterLanes<Real>> m_filter;  ///< one per group of patches; empty without assumed strains
+    /// One per group of patches: H^2 of bodies of Hooke's law alone, else H; empty without assumed strains.
+    std::vector<FilterLanes<Real>> m_filter;
     /// One a block; empty if no element is orthotropic, else of all elements.
     std::vector<StiffnessBlock<Real>> m_stiffness;
 

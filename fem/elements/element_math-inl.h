@@ -112,6 +112,23 @@ HWY_INLINE Symmetric<Real> doubledPart(const Entry& entry)
             entry(0, 1) + entry(1, 0)};
 }
 
+/// sym(H) with doubled shears.
+template <class Real>
+HWY_INLINE Symmetric<Real> doubledPart(const Matrix<Real>& H)
+{
+    return doubledPart<Real>([&](int i, int j) { return H.m[i][j]; });
+}
+
+/// R^T A.
+template <class Real>
+HWY_INLINE Matrix<Real> inFrameOf(const Matrix<Real>& R, const Matrix<Real>& A)
+{
+    Matrix<Real> C;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) C.m[i][j] = dot3(R.m[0][i], A.m[0][j], R.m[1][i], A.m[1][j], R.m[2][i], A.m[2][j]);
+    return C;
+}
+
 /// The strain sym(A B^T) with doubled shears.
 template <class Real>
 HWY_INLINE Symmetric<Real> strainOf(const Matrix<Real>& A, const Matrix<Real>& B)

@@ -115,26 +115,10 @@ struct PassLanes
         hn::Store(patchBulk, d, out.m_patchBulk + m_lane);
     }
 
-    /// Replaces the responses of lanes whose laws are evaluated one element at a time.
     HWY_INLINE void respondOneByOne(Vector<Real> lambda, Vector<Real> pressure, const Symmetric<Real>& e,
                                     ResponseLanes<Real>& law) const
     {
-        const ElementBlocks<Real>& all = *m_pass.m_elements;
-        if (all.m_single.empty()) return;
-        const Lanes<Real> d;
-        SingleResponses<Real> single;
-        storeSymmetric(e, single.m_strain, 0);
-        hn::Store(lambda, d, single.m_lambda);
-        hn::Store(pressure, d, single.m_pressure);
-        storeSymmetric(law.m_stress, single.m_stress, 0);
-        storeSymmetric(law.m_cofactor, single.m_cofactor, 0);
-        hn::Store(law.m_bulk, d, single.m_bulk);
-        hn::Store(law.m_shear, d, single.m_shear);
-        single.respond(all, m_pass.m_history, m_block * kLanes + m_lane, width<Real>());
-        law.m_stress = loadSymmetric(single.m_stress, 0);
-        law.m_cofactor = loadSymmetric(single.m_cofactor, 0);
-        law.m_bulk = hn::Load(d, single.m_bulk);
-        law.m_shear = hn::Load(d, single.m_shear);
+        respondSingly(*m_pass.m_elements, m_pass.m_history, m_block * kLanes + m_lane, lambda, pressure, e, law);
     }
 };
 
@@ -191,7 +175,7 @@ struct PatchBatch
     int m_column, m_first;
 };
 
-/// Patch: PatchStrains, PatchAssumed or PatchResponses.
+/// Patch: PatchStrains or PatchResponses.
 template <class Patch, class Real>
 HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 {
@@ -244,7 +228,7 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
             {
                 const PassLanes<Real> elements = {pass, staged[turn][0], in.m_block + k, in.m_lane, in.m_group};
                 Symmetric<Real> stress = patch.finish(k, elements);
-                if (pass.m_initialStress && !std::is_same<Patch, PatchAssumed<Real>>::value)
+                if (pass.m_initialStress)
                     stress = withInitialStress(elements, loadQuaternions(elements.rotations(), Real()),
                                                patch.m_strain[k], stress);
                 patch.storeTension(elements, tensionOf(pass.m_tensionFactor, stress));
@@ -254,18 +238,90 @@ HWY_INLINE void passPatches(const ElementPass<Real>& pass, Range groups)
 }
 
 template <class Real>
+HWY_INLINE void passAssumedPatches(const ElementPass<Real>& pass, Range groups)
+{
+    StagedNodes<Real> staged[2][ElementPatches::kMax];
+    PatchAssumed<Real> patch;
+    const auto stage = [&](const PatchColumn& column, int k, int slot)
+    {
+        const ElementBlock<Real>& block = pass.m_elements->m_blocks[column.m_block + k];
+        staged[slot][k].stage(pass, block.m_node + column.m_lane, {0, width<Real>()});
+    };
+    const auto compute = [&](const PatchColumn& column, int slot, const auto& other)
+    {
+        const auto lanes = [&](int k) {
+            return PassLanes<Real>{pass, staged[slot][k], column.m_block + k, column.m_lane, column.m_group};
+        };
+        for (int k = 0; k < column.m_size; ++k) patch.addGradient(k, lanes(k));
+        Quaternions<Real> q = loadQuaternions(lanes(0).rotations(), Real());
+        if (!pass.m_isRotated) polarRotations(&patch.m_gradient.m_mean, 1, &q);
+        patch.setFrame(q);
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            storeQuaternions(q, lanes(k).rotations());
+            patch.add(k, lanes(k));
+        }
+        for (int k = 0; k < column.m_size; ++k) patch.respond(k, lanes(k));
+        for (int k = 0; k < column.m_size; ++k)
+        {
+            other(k);
+            lanes(k).storeTension(tensionOf(pass.m_tensionFactor, patch.finish(k, lanes(k))));
+        }
+    };
+    forEachColumn<Real>(pass.m_elements->m_groups, groups, stage, compute);
+}
+
+template <class Real>
 void passUnits(const ElementPass<Real>& pass, Range pieces)
 {
     if (!pass.m_elements->hasPatches()) return passBlocks(pass, pieces);
     if (pass.m_tangent) return passPatches<PatchResponses<Real>>(pass, pieces);
-    if (!pass.m_elements->m_filter.empty()) return passPatches<PatchAssumed<Real>>(pass, pieces);
+    if (!pass.m_elements->m_filter.empty()) return passAssumedPatches(pass, pieces);
     passPatches<PatchStrains<Real>>(pass, pieces);
+}
+
+/// Strains of the elements of a column in the frames of their patches.
+template <class Real>
+HWY_INLINE void strainColumn(const ElementStrains<Real>& strains, const PatchColumn& column)
+{
+    constexpr int kN = width<Real>();
+    StagedEdges<double, kN> staged[ElementPatches::kMax];
+    const ElementBlocks<Real>& all = *strains.m_elements;
+    const auto rotation = [&](int k) { return strains.m_rotation + (column.m_block + k) * kLanes + column.m_lane; };
+    const auto lanes = [&](int k) {
+        return DeformedLanes<Real>{all.m_blocks[column.m_block + k], staged[k], column.m_lane};
+    };
+    MeanGradient<Real> gradient;
+    for (int k = 0; k < column.m_size; ++k)
+    {
+        staged[k].stage(all.m_blocks[column.m_block + k].m_node + column.m_lane, strains.m_x);
+        const Vector<Real> share = hn::Load(Lanes<Real>(), all.m_share[column.m_block + k].m_lane + column.m_lane);
+        gradient.add(k, share, times(roundedEdges<Real>(lanes(k)), lanes(k).DmInverse()));
+    }
+    Quaternions<Real> q = loadQuaternions(rotation(0), Real());
+    polarRotations(&gradient.m_mean, 1, &q);
+    const Matrix<Real> R = toMatrix(q, number<Real>(2));
+    for (int k = 0; k < column.m_size; ++k)
+    {
+        storeQuaternions(q, rotation(k));
+        const Symmetric<Real> E = strainInFrameOf(R, times(edgesMinusRotated(lanes(k), q), lanes(k).DmInverse()));
+        storeSymmetric(withoutDoubling(E), strains.m_strain[column.m_block + k].m_entry, column.m_lane);
+    }
+}
+
+template <class Real>
+void strainPatches(const ElementStrains<Real>& strains, Range groups)
+{
+    constexpr int kVectors = kLanes / width<Real>();
+    for (int c = groups.m_begin * kVectors; c < groups.m_end * kVectors; ++c)
+        strainColumn(strains, patchColumn<Real>(strains.m_elements->m_groups, c));
 }
 
 template <class Real>
 void strainBlocks(const ElementStrains<Real>& strains, Range blocks)
 {
     constexpr int kN = width<Real>();
+    if (!strains.m_elements->m_filter.empty()) return strainPatches(strains, blocks);
     for (int b = blocks.m_begin; b < blocks.m_end; ++b)
         for (int lane = 0; lane < kLanes; lane += kN)
         {

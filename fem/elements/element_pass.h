@@ -40,7 +40,7 @@ struct alignas(64) TangentBlock
 {
     Real m_cofactor[6][kLanes];  ///< C / sqrt(k): xx, yy, zz, yz, xz, xy
     Real m_bulk[kLanes];         ///< l [J]
-    Real m_patchBulk[kLanes];    ///< coefficient of the patch's mean [J]; 0 without patches
+    Real m_patchBulk[kLanes];    ///< coefficient of the patch's mean [J]; 0 without patches; k of an AssumedPass [-]
 };
 
 /// Element pass, once a step: F = D_s D_m^-1 of every element, its polar rotation R, its force and its part of A. With
@@ -76,15 +76,15 @@ struct ElementPass
 template <class Real>
 void runElementPass(const ElementPass<Real>& pass, Range pieces);
 
-/// Strains of kLanes elements in their own frames, sym(R^T F) - I [-]: xx, yy, zz, yz, xz, xy, shears not doubled.
+/// Strains of kLanes elements in their frames, sym(R^T F) - I [-]: xx, yy, zz, yz, xz, xy, shears not doubled.
 template <class Real>
 struct alignas(64) StrainBlock
 {
     Real m_entry[6][kLanes];
 };
 
-/// Strains and rotations of all elements at the present positions. F - R is computed in double and R as in an
-/// ElementPass. Positions must be finite.
+/// Strains and rotations of all elements at the present positions, with assumed strains in the frames of their patches.
+/// F - R is computed in double and R as in an ElementPass. Positions must be finite.
 template <class Real>
 struct ElementStrains
 {
@@ -94,8 +94,9 @@ struct ElementStrains
     StrainBlock<Real>* m_strain;  ///< out, one per block
 };
 
-/// Runs over a range of blocks, on the widest vectors that the processor has. Bitwise independent of the division into
-/// ranges. Never allocates; thread-safe on distinct blocks.
+/// Runs over a range of blocks, with assumed strains of work units (ElementBlocks::workUnitCount()), on the widest
+/// vectors that the processor has. Bitwise independent of the division into ranges. Never allocates; thread-safe on
+/// distinct ranges.
 template <class Real>
 void runElementStrains(const ElementStrains<Real>& strains, Range blocks);
 

@@ -23,10 +23,10 @@ struct ElementScratch
 
     std::vector<CornerBlock<Real>> m_corners;
     std::vector<WarpedBlock<Real>> m_warped;
-    std::vector<StressBlock<Real>> m_initialStress;     ///< empty without initial stress
-    std::vector<TangentBlock<Real>> m_tangent;          ///< empty without laws that vary
-    std::vector<StrainBlock<Real>> m_strain;            ///< empty until inelastic strains are needed
-    std::vector<OrthotropicBlock<Real>> m_orthotropic;  ///< empty without orthotropic elements
+    std::vector<StressBlock<Real>> m_initialStress;  ///< empty without initial stress
+    std::vector<TangentBlock<Real>> m_tangent;       ///< empty without laws that vary
+    std::vector<StrainBlock<Real>> m_strain;         ///< empty until inelastic strains are needed
+    std::vector<StretchBlock<Real>> m_stretches;     ///< empty but for orthotropic and assumed elements
 };
 
 /// Number of steps that stay prepared for impulses after one that had some: preparing late costs as much as preparing

@@ -14,7 +14,7 @@ LawPoint lawPointOf(const RestShape& shape, int e, const double* history)
     LawPoint point;
     point.m_lambda = element.m_lambdaVolume / element.m_volume;
     point.m_mu = element.m_muVolume / element.m_volume;
-    point.m_size = std::cbrt(shape.m_mesh.tetVolume(e));
+    point.m_size = shape.lawSizeOf(e);
     point.m_constants = material.m_lawConstants.data();
     if (history) point.m_history = history + static_cast<std::size_t>(e) * shape.m_materials.historyCount();
     if (shape.isOrthotropic()) point.m_stiffness = &shape.stiffnessOf(e);

@@ -7,9 +7,10 @@
 namespace bullet_fem
 {
 
-/// Data of kLanes elements of general C for products with K' during a step, in their own frames.
+/// Data of kLanes elements whose stress does not have the axes of their strain for products with K' during a step, in
+/// their own frames.
 template <class Real>
-struct alignas(64) OrthotropicBlock
+struct alignas(64) StretchBlock
 {
     Real m_rotation[9][kLanes];  ///< R, row-major
     Real m_tension[6][kLanes];   ///< tension factor times V sigma+: xx, yy, zz, yz, xz, xy
@@ -29,8 +30,8 @@ struct alignas(64) OrthotropicBlock
 template <class Real>
 struct OrthotropicPass
 {
-    ElementPass<Real> m_elements;      ///< m_warped is not written
-    OrthotropicBlock<Real>* m_warped;  ///< out, one per block
+    ElementPass<Real> m_elements;  ///< m_warped is not written
+    StretchBlock<Real>* m_warped;  ///< out, one per block
 };
 
 /// Element product for general C, with H = R^T sum over b of (p_b - p_0) g_b^T and W from `rest`:
@@ -42,8 +43,8 @@ struct OrthotropicPass
 template <class Real>
 struct OrthotropicProduct
 {
-    ElementProduct<Real> m_elements;         ///< m_warped is not read
-    const OrthotropicBlock<Real>* m_warped;  ///< output of the pass
+    ElementProduct<Real> m_elements;     ///< m_warped is not read
+    const StretchBlock<Real>* m_warped;  ///< output of the pass
 };
 
 /// Run over ranges of blocks, on the widest vectors that the processor has. Bitwise independent of the division into

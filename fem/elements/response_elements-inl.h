@@ -27,6 +27,28 @@ HWY_INLINE Symmetric<Real> unitMatrixOf()
     return {one, one, one, zero, zero, zero};
 }
 
+/// Replaces the responses of lanes from `first` on whose laws are evaluated one element at a time.
+template <class Real>
+HWY_INLINE void respondSingly(const ElementBlocks<Real>& all, const double* history, int first, Vector<Real> lambda,
+                              Vector<Real> pressure, const Symmetric<Real>& e, ResponseLanes<Real>& law)
+{
+    if (all.m_single.empty()) return;
+    const Lanes<Real> d;
+    SingleResponses<Real> single;
+    storeSymmetric(e, single.m_strain, 0);
+    hn::Store(lambda, d, single.m_lambda);
+    hn::Store(pressure, d, single.m_pressure);
+    storeSymmetric(law.m_stress, single.m_stress, 0);
+    storeSymmetric(law.m_cofactor, single.m_cofactor, 0);
+    hn::Store(law.m_bulk, d, single.m_bulk);
+    hn::Store(law.m_shear, d, single.m_shear);
+    single.respond(all, history, first, width<Real>());
+    law.m_stress = loadSymmetric(single.m_stress, 0);
+    law.m_cofactor = loadSymmetric(single.m_cofactor, 0);
+    law.m_bulk = hn::Load(d, single.m_bulk);
+    law.m_shear = hn::Load(d, single.m_shear);
+}
+
 /// Responses of a vector of elements to a strain with doubled shears. Elements are those of passElements(), with law(),
 /// numbers of LaneLaw, and respondOneByOne(). lambda and pressure are those of LawPoint, times the volume.
 template <class Real, class Elements>

@@ -39,6 +39,14 @@ void validateInput(const RestShape& shape, const FactorInput& input)
             reject("node ", i, " belongs to no element and is not fixed; fix it, or remove it from the mesh");
 }
 
+// With mean dilatation in one material only, the other may be as soft in some volume changes as without lambda.
+double mismatchOfPatches(const Material& a, const Material& b)
+{
+    double most = 1;
+    for (const Material* m : {&a, &b}) most = std::max(most, 1 + 1.5 * m->lameLambda() / m->lameMu());
+    return most;
+}
+
 // Equivalent ratio of steps of two materials. The eigenvalues of A0 lie between those of its parts: 1 + h alpha times
 // the mass, and h^2 + h beta times K, which is monotone in the eigenvalues 2 mu and 3 lambda + 2 mu of Hooke's matrix.
 // A ratio of steps changes them by its square.
@@ -50,10 +58,7 @@ double mismatch(const Material& a, const Material& b, double h)
         return std::array<double, 3>{1 + h * m.m_massDamping, stiff * m.lameMu(),
                                      stiff * (3 * m.lameLambda() + 2 * m.lameMu())};
     };
-    double most = 1;
-    // With mean dilatation in one material only, the other may be as soft in some volume changes as without lambda.
-    if (a.usesMeanDilatation() != b.usesMeanDilatation())
-        for (const Material* m : {&a, &b}) most = std::max(most, 1 + 1.5 * m->lameLambda() / m->lameMu());
+    double most = a.usesMeanDilatation() == b.usesMeanDilatation() ? 1 : mismatchOfPatches(a, b);
     for (std::size_t k = 0; k < 3; ++k) most = std::max({most, parts(a)[k] / parts(b)[k], parts(b)[k] / parts(a)[k]});
     return std::sqrt(most);
 }
@@ -62,6 +67,7 @@ double mismatch(const Material& a, const Material& b, double h)
 double orthotropicMismatch(const Material& a, const Material& b, double h)
 {
     if (a == b) return 1;
+    const double patches = a.usesMeanDilatation() == b.usesMeanDilatation() ? 1 : mismatchOfPatches(a, b);
     using Matrix6 = Eigen::Matrix<double, 6, 6>;
     const auto stiff = [h](const Material& m) -> Matrix6
     {
@@ -71,7 +77,7 @@ double orthotropicMismatch(const Material& a, const Material& b, double h)
     const auto mass = [h](const Material& m) { return 1 + h * m.m_massDamping; };
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> eigen(stiff(a), stiff(b), Eigen::EigenvaluesOnly);
     const double least = eigen.eigenvalues()(0), largest = eigen.eigenvalues()(5);
-    return std::sqrt(std::max({1.0, mass(a) / mass(b), mass(b) / mass(a), largest, 1 / least}));
+    return std::sqrt(std::max({patches, mass(a) / mass(b), mass(b) / mass(a), largest, 1 / least}));
 }
 
 // Both matrices are sums over elements: their eigenvalues differ by at most the worst element's ratio.

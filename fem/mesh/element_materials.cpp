@@ -55,14 +55,13 @@ void checkElements(const ElementMaterials& materials)
     for (const auto& [label, material] : materials.m_regions)
     {
         const Law& law = lawOf(material.m_law);
-        if (orthotropic && material.usesMeanDilatation())
+        if (orthotropic && !bends && material.usesMeanDilatation())
             reject("region ", label, " has mean dilatation (nu ", material.m_poissonRatio,
                    ") beside an orthotropic region; switch it off in all regions of such a body, or give all of them "
                    "the law hooke");
-        if ((orthotropic || bends) && law.m_kind == LawKind::varying)
-            reject("region ", label, " has the ", law.m_title, " beside ",
-                   orthotropic ? "an orthotropic region; give one of them the law hooke"
-                               : "a region of accurate bending; switch that off, or give it the law hooke");
+        if (orthotropic && law.m_kind == LawKind::varying)
+            reject("region ", label, " has the ", law.m_title,
+                   " beside an orthotropic region; give one of them the law hooke");
     }
 }
 
@@ -180,7 +179,7 @@ bool ElementMaterials::choosesBending() const
 ElementMaterials ElementMaterials::withBending(bool isThin) const
 {
     ElementMaterials chosen = *this;
-    const bool bears = isThin && !isNonlinear() && !isOrthotropic();
+    const bool bears = isThin && !isNonlinear();
     for (auto& [label, material] : chosen.m_regions)
         if (material.m_bending == Bending::automatic)
             material.m_bending =

@@ -112,14 +112,9 @@ bool validBending(const Material& material, std::string* why)
                            ", outside [0, 2]; choose automatic, plain or accurate");
         return false;
     }
-    if (material.m_bending != Bending::accurate) return true;
-    const Law& law = lawOf(material.m_law);
-    const std::string without = material.m_meanDilatation == MeanDilatation::off
-                                    ? "mean dilatation off; take automatic or on"
-                                : law.m_kind != LawKind::linear ? message("the ", law.m_title, "; take the law hooke")
-                                                                : "";
-    if (!without.empty() && why) *why = message("accurate bending does not go with ", without);
-    return without.empty();
+    if (material.m_bending != Bending::accurate || material.m_meanDilatation != MeanDilatation::off) return true;
+    if (why) *why = "accurate bending does not go with mean dilatation off; take automatic or on";
+    return false;
 }
 
 }  // namespace
@@ -144,10 +139,11 @@ ElasticMatrix Material::stiffness() const
 bool Material::usesMeanDilatation() const
 {
     const Law& law = lawOf(m_law);
+    if (m_bending == Bending::accurate) return m_meanDilatation != MeanDilatation::off;
     if (law.m_noPatches) return false;
     if (m_meanDilatation != MeanDilatation::automatic) return m_meanDilatation == MeanDilatation::on;
     if (law.m_kind != LawKind::linear) return false;
-    return m_bending == Bending::accurate || static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
+    return static_cast<float>(m_poissonRatio) > static_cast<float>(kMinAveragedRatio);
 }
 
 int Material::relaxationTerms() const

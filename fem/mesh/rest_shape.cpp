@@ -86,6 +86,16 @@ RestShape::RestShape(TetMesh mesh, ElementMaterials materials, const std::vector
     m_assumedStrain = AssumedStrain(m_mesh, chosen, m_patches, volume);
 }
 
+double RestShape::lawSizeOf(int e) const
+{
+    if (m_assumedStrain.empty()) return std::cbrt(m_mesh.tetVolume(e));
+    const int patch = m_patches.m_patch[e];
+    double volume = 0;
+    for (int k = m_patches.m_start[patch]; k < m_patches.m_start[patch + 1]; ++k)
+        volume += m_mesh.tetVolume(m_patches.m_element[k]);
+    return std::cbrt(volume);
+}
+
 double RestShape::shareOfPatch(int e) const
 {
     return m_patches.empty() ? 1 : m_elements[e].m_volume / m_patchVolume[m_patches.m_patch[e]];

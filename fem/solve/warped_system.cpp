@@ -10,6 +10,7 @@
 #include "fem/body/step_scratch.h"
 #include "fem/common/chunks.h"
 #include "fem/common/rotation.h"
+#include "fem/elements/assumed_elements.h"
 #include "fem/elements/element_product.h"
 #include "fem/elements/model_elements.h"
 #include "fem/elements/node_sums.h"
@@ -74,20 +75,51 @@ ElementPass<Real> passOver(Body& body, const StepSettings& settings)
 }
 
 template <class Real>
-void runPass(const ElementPass<Real>& pass, const Threads* threads)
+Chunks unitsOf(const ElementBlocks<Real>& elements)
 {
-    runRanges(threads, {pass.m_elements->workUnitCount(), pass.m_elements->workUnitsPerChunk()},
-              [&](Range pieces) { runElementPass(pass, pieces); });
+    return {elements.workUnitCount(), elements.workUnitsPerChunk()};
 }
 
 template <class Real>
-void runOrthotropic(Body& body, const ElementPass<Real>& pass, const Threads* threads)
+void runPass(const ElementPass<Real>& pass, const Threads* threads)
 {
-    auto& warped = body.m_workspace.scratch().m_elements.scratch<Real>().m_orthotropic;
-    warped.resize(pass.m_elements->blockCount());
+    runRanges(threads, unitsOf(*pass.m_elements), [&](Range pieces) { runElementPass(pass, pieces); });
+}
+
+/// True if the elements need the stretches of an OrthotropicPass or AssumedPass.
+template <class Real>
+bool needsStretches(const ElementBlocks<Real>& elements)
+{
+    return elements.assumesForAnyLaw() || !elements.m_stiffness.empty();
+}
+
+template <class Real>
+void runPassOfStretches(Body& body, const ElementPass<Real>& pass, const Threads* threads)
+{
+    const ElementBlocks<Real>& elements = *pass.m_elements;
+    auto& warped = body.m_workspace.scratch().m_elements.scratch<Real>().m_stretches;
+    warped.resize(elements.blockCount());
+    const AssumedPass<Real> assumed = {pass, warped.data()};
     const OrthotropicPass<Real> orthotropic = {pass, warped.data()};
-    runRanges(threads, {pass.m_elements->blockCount(), kBlocksPerChunk},
-              [&](Range blocks) { runOrthotropicPass(orthotropic, blocks); });
+    if (elements.assumesForAnyLaw())
+        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedPass(assumed, units); });
+    else
+        runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
+                  [&](Range blocks) { runOrthotropicPass(orthotropic, blocks); });
+}
+
+template <class Real>
+void runProductOfStretches(const ElementProduct<Real>& product, const StretchBlock<Real>* warped,
+                           const Threads* threads)
+{
+    const ElementBlocks<Real>& elements = *product.m_elements;
+    const AssumedProduct<Real> assumed = {product, warped};
+    const OrthotropicProduct<Real> orthotropic = {product, warped};
+    if (elements.assumesForAnyLaw())
+        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedProduct(assumed, units); });
+    else
+        runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
+                  [&](Range blocks) { runOrthotropicProduct(orthotropic, blocks); });
 }
 
 // Runs the element pass and adds the forces to `force` [N].
@@ -95,8 +127,8 @@ template <class Real>
 void passOverElements(Body& body, const StepSettings& settings, std::vector<Vec3>& force)
 {
     const ElementPass<Real> pass = passOver<Real>(body, settings);
-    if (!pass.m_elements->m_stiffness.empty())
-        runOrthotropic(body, pass, settings.m_threads);
+    if (needsStretches(*pass.m_elements))
+        runPassOfStretches(body, pass, settings.m_threads);
     else
         runPass(pass, settings.m_threads);
     sumOverNodes(settings.m_threads,
@@ -115,15 +147,10 @@ void product(const Body& body, const Threads* threads, double stiffnessFactor, b
     const ElementProduct<Real> forces = {
         &blocks,         scratch.m_warped.data(),  stiffnessFactor,
         work.m_x.data(), scratch.m_corners.data(), blocks.m_law.empty() ? nullptr : scratch.m_tangent.data()};
-    if (!blocks.m_stiffness.empty())
-    {
-        const OrthotropicProduct<Real> orthotropic = {forces, scratch.m_orthotropic.data()};
-        runRanges(threads, {blocks.blockCount(), kBlocksPerChunk},
-                  [&](Range range) { runOrthotropicProduct(orthotropic, range); });
-    }
+    if (needsStretches(blocks))
+        runProductOfStretches(forces, scratch.m_stretches.data(), threads);
     else
-        runRanges(threads, {forces.m_elements->workUnitCount(), forces.m_elements->workUnitsPerChunk()},
-                  [&](Range pieces) { runElementProduct(forces, pieces); });
+        runRanges(threads, unitsOf(blocks), [&](Range pieces) { runElementProduct(forces, pieces); });
     if (!withMass) std::fill(out.begin(), out.end(), Vec3());
     sumOverNodes(threads, NodeSums<Real>{&elements.m_nodes, scratch.m_corners.data(),
                                          withMass ? work.m_scaledMass.data() : nullptr, work.m_x.data(), out.data()});

@@ -6,9 +6,9 @@
 
 #include "fem/body/internal_stress.h"
 #include "fem/body/step_scratch.h"
-#include "fem/common/rotation.h"
 #include "fem/elements/law_points.h"
 #include "fem/elements/model_elements.h"
+#include "fem/elements/patch_frame.h"
 #include "fem/laws/mean_dilatation.h"
 
 namespace bullet_fem
@@ -16,27 +16,14 @@ namespace bullet_fem
 namespace
 {
 
-// F of element e at positions x.
-Mat3 deformationGradient(const RestShape& shape, int e, const std::vector<Vec3>& x)
-{
-    const Tet& tet = shape.m_mesh.tets()[e];
-    const Vec3& x0 = x[tet[0]];
-    return Mat3::fromColumns(x[tet[1]] - x0, x[tet[2]] - x0, x[tet[3]] - x0) * shape.m_elements[e].m_DmInverse;
-}
-
-}  // namespace
-
-namespace
-{
-
 // E = sym(R^T F) - I. The state's rotations are those of the start of the last step, outdated in a spinning body: R is
 // recomputed.
 SymmetricTensor strainOf(const Body& body, int e, const std::vector<Vec3>& x)
 {
-    const Mat3 F = deformationGradient(body.m_model->shape(), e, x);
+    const RestShape& shape = body.m_model->shape();
     const int lane = body.m_model->elements().m_lanes.m_lane[e];
-    const Mat3 R = polarRotation(F, toMatrix(body.m_state.m_elementRotation[lane]));
-    return symmetricPart(transposeTimes(R, F) - Mat3::identity());
+    const Mat3 R = frameRotation(shape, e, x, toMatrix(body.m_state.m_elementRotation[lane]));
+    return symmetricPart(transposeTimes(R, deformationGradient(shape, e, x)) - Mat3::identity());
 }
 
 // Stores the assumed strains of all elements.
@@ -71,6 +58,7 @@ double elasticEnergy(const Body& body, const std::vector<Vec3>& x)
     ElasticEnergyScratch& scratch = body.m_workspace.scratch().m_elasticEnergy;
     std::fill(scratch.m_dilatation.begin(), scratch.m_dilatation.end(), 0.0);
     assumeStrains(body, x, scratch.m_strain);
+    const bool sharesVolume = !patches.empty() && shape.m_assumedStrain.empty();  // assumed strains share it already
     double energy = 0;
     for (int e = 0; e < shape.m_mesh.tetCount(); ++e)
     {
@@ -78,7 +66,7 @@ double elasticEnergy(const Body& body, const std::vector<Vec3>& x)
         const SymmetricTensor strain = shape.m_assumedStrain.empty() ? strainOf(body, e, x) : scratch.m_strain[e];
         const Law& law = lawOf(shape.materialOf(e).m_law);
         LawPoint point = lawPointOf(shape, e, s.m_lawHistory.data());
-        if (!patches.empty())
+        if (sharesVolume)
         {
             scratch.m_dilatation[patches.m_patch[e]] += shape.shareOfPatch(e) * volumeChange(law, toMatrix(strain));
             shareWithPatch(law, 0, point);
@@ -87,7 +75,7 @@ double elasticEnergy(const Body& body, const std::vector<Vec3>& x)
         if (hasInitialStress(body))
             energy += volume * contraction(initialStress(body, e), strain) + inelasticEnergy(body, e);
     }
-    for (int e = 0; e < shape.m_mesh.tetCount() && !patches.empty(); ++e)
+    for (int e = 0; e < shape.m_mesh.tetCount() && sharesVolume; ++e)
         energy += shape.m_elements[e].m_volume * sharedEnergy(lawOf(shape.materialOf(e).m_law),
                                                               scratch.m_dilatation[patches.m_patch[e]],
                                                               lawPointOf(shape, e, s.m_lawHistory.data()));

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "fem/body/internal_stress.h"
-#include "fem/common/rotation.h"
 #include "fem/elements/law_points.h"
 #include "fem/elements/model_elements.h"
+#include "fem/elements/patch_frame.h"
 #include "fem/laws/mean_dilatation.h"
 
 namespace bullet_fem
@@ -32,15 +32,10 @@ struct LeftStretch
 
 LeftStretch leftStretch(const Body& body, int e)
 {
-    const BodyModel& model = *body.m_model;
-    const Tet& tet = model.mesh().tets()[e];
-    const std::vector<Vec3>& x = body.m_state.m_x;
-    const Vec3& x0 = x[tet[0]];
-    const Mat3 F =
-        Mat3::fromColumns(x[tet[1]] - x0, x[tet[2]] - x0, x[tet[3]] - x0) * model.shape().m_elements[e].m_DmInverse;
-    const int lane = model.elements().m_lanes.m_lane[e];
-    const Mat3 R = polarRotation(F, toMatrix(body.m_state.m_elementRotation[lane]));
-    return {R, timesTranspose(F, R)};
+    const RestShape& shape = body.m_model->shape();
+    const int lane = body.m_model->elements().m_lanes.m_lane[e];
+    const Mat3 R = frameRotation(shape, e, body.m_state.m_x, toMatrix(body.m_state.m_elementRotation[lane]));
+    return {R, timesTranspose(deformationGradient(shape, e, body.m_state.m_x), R)};
 }
 
 // Strain S - I turned to world axes.
@@ -67,7 +62,7 @@ Stress stressOf(const Body& body, int e, const LeftStretch& found, double dilata
     const RestShape& shape = body.m_model->shape();
     const Law& law = lawOf(shape.materialOf(e).m_law);
     LawPoint point = lawPointOf(shape, e, body.m_state.m_lawHistory.data());
-    if (!shape.m_patches.empty()) shareWithPatch(law, dilatation, point);
+    if (!shape.m_patches.empty() && shape.m_assumedStrain.empty()) shareWithPatch(law, dilatation, point);
     const bool turns = law.m_kind == LawKind::anisotropic;
     Stress s;
     if (!turns) s = symmetricPart(law.m_respond(turnedStrain(found), point).m_stress);

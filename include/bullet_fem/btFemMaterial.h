@@ -82,10 +82,10 @@ struct BULLETFEM_API btFemMaterial
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
     /// Remedy against locking in bending (docs/materials.md). With `accurate` bars of two or more cells across have a
     /// bending error of at most 5 %, and a step takes 1.3 to 1.7 times as long. It is not available with mean
-    /// dilatation off, and for the law hooke alone; `automatic` is plain there, and beside regions of other laws.
+    /// dilatation off; `automatic` is plain there, and in bodies with a region of the law neoHooke, ogden or damage.
     btFemBending m_bending = btFemBending::plain;
-    /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
-    /// or use accurate bending, and its elements each have their own volume change. For directions that vary in space,
+    /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield or
+    /// relax, and takes mean dilatation with accurate bending alone. For directions that vary in space,
     /// pass a function of position to setMaterials.
     btFemOrthotropic m_orthotropic;
 

@@ -95,6 +95,29 @@ TEST(SceneWorld, AnOrthotropicBlockPushesBackByItsFibres)
     EXPECT_NEAR(run.m_world.materials(0).first().m_orthotropic.m_along.y, 1, 1e-6);
 }
 
+// A block two cells across under uniform load needs no bending; its stiffness along the fibres stays.
+TEST(SceneWorld, BlocksOfEveryLawPushBackWithAccurateBending)
+{
+    for (const std::string law :
+         {R"("young": 1e5, "poisson": 0, "law": "neoHooke")",
+          R"("young": 1e5, "poisson": 0, "law": "damage", "lawConstants": { "strength": 1e5 })",
+          R"("orthotropic": { "young": [2e4, 1e5, 2e4], "poisson": [0, 0, 0], "shear": [2e4, 2e4, 5e3] })"})
+    {
+        SceneRun run(R"({ "gravity": [0, 0, 0], "step": 0.01, "solver": { "tolerance": 1e-5 },
+          "softBodies": [{ "name": "block", "mesh": { "box": [0.4, 0.4, 0.5], "tets": 40 }, "position": [0, 0.2, 0],
+            "friction": 0, "material": { "bending": "accurate", "density": 40, "stiffnessDamping": 0.0001, )" +
+                     law + R"( } }],
+          "rigidBodies": [{ "name": "ground", "shape": { "plane": [0, 1, 0] } },
+            { "name": "plate", "shape": { "box": [0.7, 0.06, 0.7] }, "position": [0, 0.43, 0], "velocity": [0, -0.01, 0] }] })");
+        run.until(0.4);
+        EXPECT_EQ(run.m_world.materials(0).first().m_bending, Bending::accurate);
+        const double expected = 1e5 * 0.4 * 0.5 * 0.004 / 0.4;  // E A strain
+        const btSoftBody& block = run.m_world.soft(0);
+        EXPECT_NEAR(run.m_world.fem().contactForce(&block, &run.m_world.rigid(1)).y(), -expected, 0.04 * expected)
+            << law;
+    }
+}
+
 TEST(SceneWorld, AnchorsFollowTheirObjects)
 {
     SceneRun run(

@@ -106,6 +106,34 @@ TEST_P(BakedOrthotropic, InvalidConstantsAreRejected)
     EXPECT_THAT(with(9, std::nan("")), HasSubstr("axis 1"));
 }
 
+// Every law with accurate bending, alone and beside a region of Hooke's law.
+TEST_P(BakedOrthotropic, ComeBackWithAccurateBendingOfEveryLaw)
+{
+    for (const ElasticLaw law : {ElasticLaw::neoHooke, ElasticLaw::ogden, ElasticLaw::damage, ElasticLaw::orthotropic})
+    {
+        BakeSettings settings;
+        Material& bent = settings.m_material = law == ElasticLaw::orthotropic ? bakedFibres() : Material();
+        bent.m_law = law;
+        for (std::size_t k = 0; k < constantsOf(law).size(); ++k)
+            bent.m_lawConstants[k] = constantsOf(law)[k].m_default;
+        bent.m_bending = Bending::accurate;
+        Material hooke;
+        hooke.m_stiffnessDamping = bent.m_stiffnessDamping;
+        settings.m_pins = {0, 1, 2};
+        for (int e = 0; e < m_mesh.tetCount() && GetParam(); ++e) settings.m_labels.push_back(e % 2);
+        if (GetParam()) settings.m_regionMaterials = {{0, hooke}, {1, bent}};
+        const BakedBody baked = bakeBody(m_mesh, settings);
+        const std::string bytes = bytesOf(baked);
+        const BakedBody read = readBakedBody(rawBytes(bytes), bytes.size(), "memory");
+        EXPECT_EQ(read.m_model->shape().m_materials, baked.m_model->shape().m_materials);
+        EXPECT_EQ(read.m_model->shape().m_materials.m_regions.back().m_material.m_bending, Bending::accurate);
+        EXPECT_EQ(read.m_model->materialMismatch(), 1);
+        const std::vector<Vec3> found = swung(read), expected = swung(baked);
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(norm(found[i] - expected[i]), 0) << i;
+        EXPECT_EQ(bytesOf(read), bytes);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Regions, BakedOrthotropic, testing::Bool(),
                          [](const auto& suite) { return std::string(suite.param ? "Several" : "One"); });
 

@@ -193,14 +193,31 @@ TEST(ElasticityAccurateBending, FollowsTheElastica)
     }
 }
 
-// Two and three cells across, and a bar so long that shear adds .3 %: elements with mean dilatation alone have .83 and
+// w / L = .71379 at P L^2 / (E I) = 5 [Mattiasson 1981], with cells .125 x .5 x .125 m: their patches turn far.
+TEST(ElasticityAccurateBending, FollowsTheElasticaWithFlatCells)
+{
+    const double L = 10, I = 1.0 / 12;
+    for (const CellSplit split : {CellSplit::kuhnSix, CellSplit::alternatingFive})
+    {
+        const TetMesh mesh = makeBox({L, 1, 1}, {80, 2, 8}, {}, split);
+        const std::vector<double> area = faceAreas(mesh, atEnd);
+        Body body = makeBody(mesh, accurate(0, 1), isClampedEnd, 1);
+        for (std::size_t i = 0; i < area.size(); ++i)
+            body.m_loads.m_force[i].z = -5 * kBendYoung * I / (L * L) * area[i];
+        EXPECT_LE(relax(body, 1e-6 * L), 1e-6 * L);
+        const double z = weightedMean(area, body.m_state.m_x).z - weightedMean(area, mesh.restPositions()).z;
+        EXPECT_NEAR(-z / L, .71379, .03 * .71379);
+    }
+}
+
+// Two to four cells across, and a bar so long that shear adds .3 %: elements with mean dilatation alone have .83 and
 // .91 of w.
 TEST(ElasticityAccurateBending, FollowsTheElasticaWithFewCells)
 {
     const double L = 16, I = 1.0 / 12;
     for (const CellSplit split : {CellSplit::kuhnSix, CellSplit::alternatingFive})
         for (const double nu : {.3, .45, .49})
-            for (const int n : {2, 3})
+            for (const int n : {2, 3, 4})
             {
                 const TetMesh mesh = makeBox({L, 1, 1}, {16 * n, n, n}, {}, split);
                 const std::vector<double> area = faceAreas(mesh, [](const Vec3& X) { return X.x > 16 - 1e-9; });
@@ -210,6 +227,43 @@ TEST(ElasticityAccurateBending, FollowsTheElasticaWithFewCells)
                 EXPECT_LE(relax(body, 1e-5 * L), 1e-5 * L);
                 const double z = weightedMean(area, body.m_state.m_x).z - weightedMean(area, mesh.restPositions()).z;
                 EXPECT_NEAR(-z / L, .60325, .04 * .60325) << "nu " << nu << ", n " << n;
+            }
+}
+
+// (tan u - u) / (u^3 / 3): how much more a clamped column bends under a load across its end at u = pi/2 sqrt(P / P_cr).
+double bendingFactor(double share)
+{
+    const double u = M_PI / 2 * std::sqrt(share);
+    return 3 * (std::tan(u) - u) / (u * u * u);
+}
+
+// Euler's load pi^2 E I / (4 L^2), from the deflections under a small load across without and with half of it along.
+TEST(ElasticityAccurateBending, ColumnsBuckleAtEulersLoad)
+{
+    const double L = 20, euler = M_PI * M_PI * kBendYoung / (12 * 4 * L * L);
+    for (const CellSplit split : {CellSplit::kuhnSix, CellSplit::alternatingFive})
+        for (const double nu : {.3, .45, .49})
+            for (const int n : {2, 3, 4})
+            {
+                const TetMesh mesh = makeBox({L, 1, 1}, {20 * n, n, n}, {}, split);
+                const std::vector<double> area = faceAreas(mesh, [](const Vec3& X) { return X.x > 20 - 1e-9; });
+                double deflection[2];
+                for (const int loaded : {0, 1})
+                {
+                    Body body = makeBody(mesh, accurate(nu, 1), isClampedEnd, 1);
+                    for (std::size_t i = 0; i < area.size(); ++i)
+                        body.m_loads.m_force[i] = {-.5 * loaded * euler * area[i], 0, -1e-3 * euler * area[i]};
+                    EXPECT_LE(relax(body, 1e-7), 1e-7);
+                    deflection[loaded] =
+                        weightedMean(area, mesh.restPositions()).z - weightedMean(area, body.m_state.m_x).z;
+                }
+                double low = .1, high = 1;  // of the share P / P_cr
+                for (int k = 0; k < 50; ++k)
+                {
+                    const double middle = .5 * (low + high);
+                    (bendingFactor(middle) < deflection[1] / deflection[0] ? low : high) = middle;
+                }
+                EXPECT_NEAR(.5 / low, 1, .06) << "nu " << nu << ", n " << n;
             }
 }
 
@@ -287,6 +341,31 @@ TEST(ElasticityAccurateBending, PassesThePatchTest)
         elementStresses(body, stress);
         for (const Stress& s : stress) EXPECT_NEAR(s.xy, stress[0].xy, 1e-6 * kBendYoung * strain);
     }
+}
+
+// Bars with both ends held at a multiple of their length: the inner nodes find the homogeneous state from another.
+// Cells of 1 and 4 times their thickness, and askew ones. In frames of their own, elements have no equilibrium here.
+TEST(ElasticityAccurateBending, PulledBarsKeepTheirShape)
+{
+    const auto isHeld = [](const Vec3& X) { return X.x < 1e-9 || X.x > 4 - 1e-9; };
+    for (const CellSplit split : {CellSplit::kuhnSix, CellSplit::alternatingFive})
+        for (const int length : {1, 2, 4})
+            for (const double strain : {.2, .5, 1., 2.})
+                for (const double nu : {0., .3})
+                {
+                    if (nu * strain > .5) continue;
+                    SCOPED_TRACE("cells " + std::to_string(length) + ", strain " + std::to_string(strain) + ", nu " +
+                                 std::to_string(nu));
+                    const TetMesh mesh = shuffledMesh(makeBox({4, 1, 1}, {12 / length, 3, 3}, {}, split), .1, 1);
+                    Body body = makeBody(mesh, accurate(nu, 1), isHeld, 1);
+                    std::vector<Vec3> exact = mesh.restPositions();
+                    for (Vec3& x : exact) x = {(1 + strain) * x.x, (1 - nu * strain) * x.y, (1 - nu * strain) * x.z};
+                    RandomVectors random(3);
+                    for (std::size_t i = 0; i < exact.size(); ++i)
+                        body.m_state.m_x[i] = exact[i] + (body.m_state.m_fixed[i] ? 0 : .03) * random.next();
+                    EXPECT_LE(relax(body, 1e-9), 1e-9);
+                    EXPECT_LE(largestDistance(body.m_state.m_x, exact), 1e-7);
+                }
 }
 
 // The energy is a sum of squares, from small strains to inverted elements.

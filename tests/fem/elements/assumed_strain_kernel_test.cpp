@@ -30,19 +30,26 @@ public:
     {
         std::vector<Vec3> sum(m_x.size());
         std::vector<SymmetricTensor> strain(m_R.size()), damped(m_R.size());
+        const std::vector<Mat3> mean = meanGradients();
         for (std::size_t e = 0; e < m_R.size(); ++e)
         {
             const Mat3 F = gradient(e, m_x);
-            m_R[e] = polarRotation(F, Mat3::identity());
+            m_R[e] = polarRotation(mean[m_shape.m_patches.m_patch[e]], Mat3::identity());
             strain[e] = symmetricPart(transposeTimes(m_R[e], F) - Mat3::identity());
             damped[e] = strain[e] + kDamping * symmetricPart(transposeTimes(m_R[e], gradient(e, v)));
         }
         const std::vector<SymmetricTensor> elastic = stresses(strain), all = stresses(damped);
+        const auto given = [&](std::size_t e) { return initial.empty() ? Mat3() : toMatrix(initial[e]); };
+        std::vector<Mat3> torque(m_shape.m_patches.count());  // sum of (R^T F) stress
+        for (std::size_t e = 0; e < m_R.size(); ++e)
+            torque[m_shape.m_patches.m_patch[e]] +=
+                transposeTimes(m_R[e], gradient(e, m_x)) * (toMatrix(elastic[e]) + given(e));
         for (std::size_t e = 0; e < m_R.size(); ++e)
         {
-            const Mat3 given = initial.empty() ? Mat3() : toMatrix(initial[e]);
-            const Mat3 stress = toMatrix(elastic[e]) + given, S = Mat3::identity() + toMatrix(strain[e]);
-            const Mat3 P = toMatrix(all[e]) + given + reference::torqueBalance(S, stress);
+            const int p = m_shape.m_patches.m_patch[e];
+            const Mat3 S = transposeTimes(m_R[e], mean[p]), stress = toMatrix(elastic[e]) + given(e);
+            const Mat3 W = reference::spinBalance(0.5 * (S + transpose(S)), torque[p]);
+            const Mat3 P = toMatrix(all[e]) + given(e) + m_shape.shareOfPatch(static_cast<int>(e)) * W;
             m_tension[e] = ElementCase<double>::kTensionFactor * positivePart(stress);
             addCorners(e, -1.0 * (m_R[e] * timesTranspose(P, m_shape.m_elements[e].m_DmInverse)), sum);
         }
@@ -66,6 +73,15 @@ public:
     }
 
 private:
+    // Mean F of every patch.
+    std::vector<Mat3> meanGradients() const
+    {
+        std::vector<Mat3> mean(m_shape.m_patches.count());
+        for (std::size_t e = 0; e < m_R.size(); ++e)
+            mean[m_shape.m_patches.m_patch[e]] += m_shape.shareOfPatch(static_cast<int>(e)) * gradient(e, m_x);
+        return mean;
+    }
+
     Mat3 gradient(std::size_t e, const std::vector<Vec3>& u) const
     {
         const Tet& tet = m_shape.m_mesh.tets()[e];

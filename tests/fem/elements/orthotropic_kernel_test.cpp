@@ -75,7 +75,7 @@ struct OrthotropicCase : ElementCase<Real>
         return this->cornerSums();
     }
 
-    std::vector<OrthotropicBlock<Real>> m_orthotropic;
+    std::vector<StretchBlock<Real>> m_orthotropic;
 };
 
 class OrthotropicKernel : public OnTarget

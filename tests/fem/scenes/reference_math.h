@@ -97,14 +97,20 @@ Mat3 initialStress(const ElementPass<Real>& pass, int b, int lane)
              {s[4][lane], s[3][lane], s[2][lane]}}};
 }
 
-/// The skew W with (sigma_0 + W) S symmetric; zero if its equation is nearly singular.
-inline Mat3 torqueBalance(const Mat3& S, const Mat3& stress)
+/// The skew [w]x with (tr(S) I - S) w = axl(M - M^T), or 0 where S is nearly flat.
+inline Mat3 spinBalance(const Mat3& S, const Mat3& M)
 {
-    const Mat3 c = S * stress - stress * S;
+    const Mat3 c = M - transpose(M);
     const Mat3 H = Mat3::diagonal(trace(S)) - S;
     const double least = kMinPivot * trace(H), minor = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1);
     if (!(least > 0 && H(0, 0) > least && minor > least * H(0, 0) && determinant(H) > least * minor)) return {};
     return crossMatrix(inverse(H) * Vec3{c(2, 1), c(0, 2), c(1, 0)});
+}
+
+/// The skew W with (sigma_0 + W) S symmetric; zero if its equation is nearly singular.
+inline Mat3 torqueBalance(const Mat3& S, const Mat3& stress)
+{
+    return spinBalance(S, S * stress);
 }
 
 }  // namespace reference

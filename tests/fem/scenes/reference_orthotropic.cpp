@@ -72,7 +72,7 @@ void passOrthotropic(const OrthotropicPass<Real>& pass, int b, int lane)
     const Mat3 P = element.hooke(damped, trace(damped)) + stretch.balanced(rest + viscous);
     storeCorners(timesTranspose(-1.0 * (strains.m_R * P), element.DmInverse()), lane, plain.m_force[b]);
 
-    OrthotropicBlock<Real>& out = pass.m_warped[b];
+    StretchBlock<Real>& out = pass.m_warped[b];
     for (int k = 0; k < 9; ++k) out.m_rotation[k][lane] = static_cast<Real>(strains.m_R(k / 3, k % 3));
     storeSymmetric(
         plain.m_tensionFactor * positivePart(element.hooke(strains.m_elastic, trace(strains.m_elastic)) + rest), lane,
@@ -85,7 +85,7 @@ template <class Real>
 void multiplyOrthotropic(const OrthotropicProduct<Real>& product, int b, int lane)
 {
     const ElementProduct<Real>& plain = product.m_elements;
-    const OrthotropicBlock<Real>& warped = product.m_warped[b];
+    const StretchBlock<Real>& warped = product.m_warped[b];
     const ReferenceElement<Real> element = {plain.m_elements->m_blocks[b], lane};
     const Mat3 R = element.matrix(warped.m_rotation);
     const Mat3 H = transposeTimes(R, element.edges(plain.m_p) * element.DmInverse());

@@ -100,18 +100,16 @@ TEST(ElastomerMaterial, HasHardnessAndLossFactor)
     EXPECT_GT(btFemMaterial::shoreD(50).m_youngModulus, rubber.m_youngModulus);
 }
 
-TEST(RejectedMaterial, NeoHookeanPresetsRefuseAccurateBendingWithTheRemedy)
+TEST(RejectedMaterial, AccurateBendingNeedsMeanDilatationUnderEveryLaw)
 {
-    for (btFemMaterial material : {btFemMaterial::jelly(), btFemMaterial::flesh()})
+    for (btFemMaterial material : {btFemMaterial::jelly(), btFemMaterial::rubber()})
     {
-        EXPECT_EQ(material.m_law, btFemElasticLaw::neoHooke);
         material.m_bending = btFemBending::accurate;
         std::string why;
-        EXPECT_FALSE(material.valid(&why));
-        EXPECT_EQ(
-            why, "accurate bending does not go with the Neo-Hookean law (as jelly and flesh have); take the law hooke");
-        material.m_law = btFemElasticLaw::hooke;
         EXPECT_TRUE(material.valid(&why)) << why;
+        material.m_meanDilatation = btFemMeanDilatation::off;
+        EXPECT_FALSE(material.valid(&why));
+        EXPECT_EQ(why, "accurate bending does not go with mean dilatation off; take automatic or on");
     }
 }
 

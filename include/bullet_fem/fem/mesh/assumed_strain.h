@@ -18,6 +18,11 @@ namespace bullet_fem
 ///
 ///     eps~_e = eps_p + H_p (eps_e - eps_p),    eps_p = sum of V_e eps_e / sum of V_e over its patch p
 ///
+/// Strains have one frame a patch: eps_e = sym(R_p^T F_e) - I with the polar rotation R_p of the patch's mean F. Then
+/// eps_p is the stretch of this mean, and its stress does no work in the second order on strains that differ from it.
+/// In frames of their own, elements of patches that are pulled by 10 % (cells four times as long as thick) to a
+/// multiple of their length (cubes) have no stable equilibrium: tension outweighs the reduced stiffness.
+///
 /// H_p is symmetric and takes the deviator times sqrt(s). In the principal axes of the patch it also multiplies the
 /// shear strain of axes i, j by the ratio of the patch's extents along them, the smaller over the larger: bending of
 /// flat cells causes parasitic shear in proportion to the inverse ratio. H_p is the deviator alone in materials without

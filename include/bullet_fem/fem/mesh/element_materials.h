@@ -65,17 +65,17 @@ struct BULLETFEM_API ElementMaterials
     std::vector<int> patchGroups() const;
     /// True if any region uses mean dilatation; Bending::automatic counts as plain.
     bool usesMeanDilatation() const;
-    /// True if any region's law is evaluated in every step; validate() refuses orthotropic regions and accurate bending
+    /// True if any region's law is evaluated in every step; validate() refuses orthotropic regions
     /// beside it.
     bool isNonlinear() const;
-    /// True if any region is orthotropic; validate() refuses mean dilatation and laws that vary in the
-    /// other regions then.
+    /// True if any region is orthotropic; validate() refuses laws that vary in the other regions then, and mean
+    /// dilatation if no region has accurate bending.
     bool isOrthotropic() const;
     /// True if any region has accurate bending; Bending::automatic counts as plain.
     bool bendsAccurately() const;
     /// True if any region has Bending::automatic.
     bool choosesBending() const;
-    /// These materials with Bending::automatic replaced: by accurate in a thin body whose laws are all hooke, unless
+    /// These materials with Bending::automatic replaced: by accurate in a thin body whose laws are linear, unless
     /// mean dilatation is off, else by plain. Allocates.
     ElementMaterials withBending(bool isThin) const;
     /// True if any region has a yield stress.

@@ -79,13 +79,13 @@ struct BULLETFEM_API Material
     /// most 0.99.
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
-    /// Whether bending does not lock. `accurate` is not available with mean dilatation off, and for the law hooke
-    /// alone; `automatic` is plain there, and beside regions of other laws.
+    /// Whether bending does not lock. `accurate` is not available with mean dilatation off; `automatic` is plain
+    /// there, and in bodies with a region of a law that varies.
     Bending m_bending = Bending::plain;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;
-    /// The constants for ElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield, relax
-    /// or use accurate bending, and its elements each have their own volume change.
+    /// The constants for ElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield or
+    /// relax, and takes mean dilatation with accurate bending alone.
     Orthotropic m_orthotropic = {};
     /// Constants of laws with constants of their own, in the order of docs/materials.md; 0 for the others.
     std::array<double, kMaxLawConstants> m_lawConstants = {};

@@ -43,6 +43,10 @@ struct BULLETFEM_API RestShape
     /// V_e over the volume of its patch, both times the filled fractions [-]; 1 without patches.
     double shareOfPatch(int e) const;
 
+    /// Size of the region whose strain the law of element e is evaluated at [m]: cube root of the volume of the
+    /// element, with accurate bending of its patch.
+    double lawSizeOf(int e) const;
+
     /// The materials with the bending that the elements have: never Bending::automatic. Allocates.
     ElementMaterials chosenMaterials() const { return m_materials.withBending(m_isThin); }
 
