@@ -52,7 +52,7 @@ void keepFrame(ComparedSide& side, const ComparedBodies& bodies, DemoSurfaces& s
 {
     // Bullet's world does not update embedded surfaces.
     for (btSoftBody* body : bodies.m_soft) btFemHelpers::updateEmbeddedSurface(body);
-    surfaces.update(side.world());
+    surfaces.update({&side.world()});
     run.m_frames.push_back(surfaces.frames());
     run.m_colours.clear();
     for (const btCollisionObject* object : surfaces.objects())

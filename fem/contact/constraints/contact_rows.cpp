@@ -3,6 +3,7 @@
 #include "fem/contact/constraints/contact_rows.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/contact/constraints/rigid_response.h"
@@ -14,6 +15,11 @@ namespace
 {
 
 constexpr std::size_t kManyBodies = 16;  // minimum number of bodies with dense compliance for which threads pay
+
+// Largest rotations within a step whose arcs sticking points follow [rad]. A movable proxy's spin is unknown before the
+// solve, and counts only if it is about the normal, by this cosine [-]: arcs threw jams of tumbling bodies apart.
+constexpr double kMaxKinematicTurn = 0.5, kMaxMovableTurn = 0.1;
+constexpr double kMinAxisCosine = 0.98;
 
 }  // namespace
 
@@ -290,19 +296,20 @@ double ContactRows::theta(int a, int b) const
     return a >= 0 || b >= 0 ? std::max(ofA, ofB) : 1;
 }
 
-// Difference between the arc of a point of a kinematic rigid proxy within the step and h times its velocity: h^2/2 w x
-// (w x arm) [m]. Sticking points follow the arc; without it a body on a turntable would drift outward. Not used for
-// fast rotation, where contact points change within the step, nor for movable proxies, whose spin is unknown before the
-// solve.
+// Difference between the arc of a point of a rigid proxy within the step and h times its velocity: h^2/2 w x (w x arm)
+// [m], with the spin before the solve. Sticking points follow the arc; without it a body on a turntable would drift
+// outward. Not used for fast rotation, where contact points change within the step. Movable proxies are
+// turntables if they spin about the normal, by which the point stays on its surface.
 Vec3 ContactRows::arcOf(const ContactRow& row) const
 {
-    constexpr double kFarTurn = 0.5;  // maximum rotation within a step [rad]
     const ConstraintSide& end = row.m_b;
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
-    const Vec3 turn = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
-    if (rigidProxy.canMove() || dot(turn, turn) > kFarTurn * kFarTurn) return {};
-    return 0.5 * cross(turn, cross(turn, end.m_arm));
+    const Vec3 spin = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
+    const double maxTurn = rigidProxy.canMove() ? kMaxMovableTurn : kMaxKinematicTurn;
+    if (dot(spin, spin) > maxTurn * maxTurn) return {};
+    if (rigidProxy.canMove() && std::fabs(dot(spin, row.m_axes[0])) < kMinAxisCosine * norm(spin)) return {};
+    return 0.5 * cross(spin, cross(spin, end.m_arm));
 }
 
 Vec3 ContactRows::arcOfMean(const ContactRow& row) const

@@ -91,7 +91,7 @@ public:
     /// Mean relative velocity of a row's sides over the step [m/s].
     Vec3 meanVelocity(const ContactRow& row) const { return meanVelocity(row.m_a) - meanVelocity(row.m_b); }
 
-    /// Correction for the arc of a point on a kinematic rigid proxy, beyond h times its velocity at 1 - theta of the
+    /// Correction for the arc of a point on a turning rigid proxy, beyond h times its velocity at 1 - theta of the
     /// step: over a share theta of the step, divided by theta, and over the whole step [m].
     Vec3 arcOf(const ContactRow& row) const;
 

@@ -228,6 +228,43 @@ TEST(AccurateBendingBodies, GoOnToTheBitAfterASnapshot)
     EXPECT_TRUE(scene.run(20) == bits);
 }
 
+// Tip of a bar clamped at x = -1 under its own weight over that of a beam, w = 12 rho g L^4 / (8 E h^2) + rho g L^2 /
+// (2 kappa G), after the swing is damped out.
+double sagOverBeam(btFemBending bending, int n)
+{
+    BendingScene scene;
+    SoftBox box;
+    box.m_size = {2, .2, .2};
+    box.m_cells = {10 * n, n, n};
+    btSoftBody* body = makeSoftBox(scene.m_world, scene.m_fem, box);
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+        if (body->m_nodes[i].m_x.x() < btScalar(-.9999)) body->setMass(i, 0);
+    btFemMaterial material = bendingMaterial(btScalar(1e8), btScalar(.3));
+    material.m_bending = bending;
+    material.m_massDamping = 8;
+    scene.m_fem.setMaterial(body, material);
+    scene.m_world.addSoft(body);
+    scene.m_world.step(180);
+    double tip = 0;
+    int count = 0;
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+        if (body->m_nodes[i].m_x.x() > btScalar(.99)) tip -= double(body->m_nodes[i].m_x.z()), ++count;
+    const double L = 2, h = .2, G = 1e8 / 2.6, kappa = 13. / 15.3;
+    return tip / count / (1000 * kGravity * (12 * std::pow(L, 4) / (8 * 1e8 * h * h) + L * L / (2 * kappa * G)));
+}
+
+// Two cells across are thin, four are not: these sag by .9 of a beam's with the plain element, and by 1 with the other.
+TEST(AccurateBendingBodies, AreChosenWhereBodiesAreThin)
+{
+    const double thin = sagOverBeam(btFemBending::automatic, 2), thick = sagOverBeam(btFemBending::automatic, 4);
+    EXPECT_EQ(thin, sagOverBeam(btFemBending::accurate, 2));
+    EXPECT_EQ(thick, sagOverBeam(btFemBending::plain, 4));
+    EXPECT_NEAR(thin, 1, .06);
+    EXPECT_LT(sagOverBeam(btFemBending::plain, 2), .8);
+    EXPECT_LT(thick, .93);
+    EXPECT_NEAR(sagOverBeam(btFemBending::accurate, 4), 1, .03);
+}
+
 TEST(AccurateBendingBodies, RejectIncompatibleOptions)
 {
     BendingScene scene;
