@@ -37,7 +37,7 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
     const double slope = std::atan(scene.m_steepness * kFriction);
     const btQuaternion tilt(btVector3(0, 1, 0), btScalar(slope));
     btFemSolverInfo info;
-    info.m_contactTolerance = btScalar(1e-4);  // at 3e-3 a point may stick for a step
+    info.m_contactTolerance = btScalar(3e-5);  // at 3e-3 a point may stick for a step; the law holds to some 5 times it
     btFemSoftBodySolver fem(info);
     SoftWorld world(fem, Coupling::coupled);
     SoftBox slab;
