@@ -31,7 +31,7 @@ struct MultiBodyConstraints
 class MultiBodyRows
 {
 public:
-    /// What the rows refer to.
+    /// The rows of Bullet, their proxies and the problem that they join.
     struct Scope
     {
         const BulletConstraints& m_rigid;

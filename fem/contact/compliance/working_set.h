@@ -12,7 +12,7 @@ namespace bullet_fem
 
 /// The sides of a body whose impulses change in the sweeps, the velocities of their slots, and the dense compliance
 /// between these: three quarters of the candidate points carry no impulse, and without them a sweep stays in the cache.
-/// Where bodies overlap, sides outnumber the nodes that they share. The set changes often and by little: a slot keeps
+/// Sides of overlapping bodies outnumber the nodes that they share. The set changes often and by little: a slot keeps
 /// its position, and one that leaves is kept, with correct velocity, until many sides have left. Grows, never shrinks.
 class WorkingSet
 {
