@@ -190,7 +190,7 @@ HWY_INLINE Quaternions<Real> turnFrame(const ElementPass<Real>& pass, const Patc
 }
 
 template <class Real>
-HWY_INLINE void passColumn(const AssumedPass<Real>& pass, const PatchColumn& column, const StagedColumn<Real>& staged)
+HWY_INLINE void passColumn(const StretchPass<Real>& pass, const PatchColumn& column, const StagedColumn<Real>& staged)
 {
     const ElementPass<Real>& plain = pass.m_elements;
     const Vector<Real> one = number<Real>(1), damping = number<Real>(plain.m_damping);
@@ -240,7 +240,7 @@ HWY_INLINE void passColumn(const AssumedPass<Real>& pass, const PatchColumn& col
 }
 
 template <class Real>
-void passAssumed(const AssumedPass<Real>& pass, Range units)
+void passAssumed(const StretchPass<Real>& pass, Range units)
 {
     const ElementBlocks<Real>& all = *pass.m_elements.m_elements;
     StagedColumn<Real> staged[2];
@@ -259,7 +259,7 @@ void passAssumed(const AssumedPass<Real>& pass, Range units)
 }
 
 template <class Real>
-HWY_INLINE void multiplyColumn(const AssumedProduct<Real>& product, const PatchColumn& column,
+HWY_INLINE void multiplyColumn(const StretchProduct<Real>& product, const PatchColumn& column,
                                const StagedEdges<Real>* edges)
 {
     const ElementProduct<Real>& plain = product.m_elements;
@@ -291,7 +291,7 @@ HWY_INLINE void multiplyColumn(const AssumedProduct<Real>& product, const PatchC
 }
 
 template <class Real>
-void multiplyAnyAssumed(const AssumedProduct<Real>& product, Range units)
+void multiplyAnyAssumed(const StretchProduct<Real>& product, Range units)
 {
     const ElementProduct<Real>& plain = product.m_elements;
     const ElementBlocks<Real>& all = *plain.m_elements;
@@ -306,8 +306,8 @@ void multiplyAnyAssumed(const AssumedProduct<Real>& product, Range units)
     forEachColumn<Real>(all.m_groups, units, stage, compute);
 }
 
-BULLETFEM_KERNEL(passAssumed, AssumedPass)
-BULLETFEM_KERNEL(multiplyAnyAssumed, AssumedProduct)
+BULLETFEM_KERNEL(passAssumed, StretchPass)
+BULLETFEM_KERNEL(multiplyAnyAssumed, StretchProduct)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
@@ -317,8 +317,8 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-BULLETFEM_EXPORT_KERNEL(passAssumed, AssumedPass, runAssumedPass)
-BULLETFEM_EXPORT_KERNEL(multiplyAnyAssumed, AssumedProduct, runAssumedProduct)
+BULLETFEM_EXPORT_KERNEL(passAssumed, StretchPass, runAssumedPass)
+BULLETFEM_EXPORT_KERNEL(multiplyAnyAssumed, StretchProduct, runAssumedProduct)
 
 }  // namespace bullet_fem
 #endif

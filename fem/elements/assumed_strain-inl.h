@@ -76,7 +76,11 @@ HWY_INLINE Matrix<Real> plusSpin(Matrix<Real> P, const Vector<Real> (&w)[3])
 template <class Real>
 struct MeanGradient
 {
-    HWY_INLINE MeanGradient() = default;  // an implicit one would not be compiled for the instruction set
+    HWY_INLINE MeanGradient()  // an implicit one would not be compiled for the instruction set
+    {
+        HWY_UNROLL(9)
+        for (int i = 0; i < 9; ++i) m_first.m[i / 3][i % 3] = m_mean.m[i / 3][i % 3] = number<Real>(0);
+    }
 
     HWY_INLINE void add(int k, Vector<Real> share, const Matrix<Real>& F)
     {

@@ -121,7 +121,7 @@ struct ElementBlocks
 
     int blockCount() const { return static_cast<int>(m_blocks.size()); }
     bool hasPatches() const { return !m_groups.empty(); }
-    /// True if assumed strains are those of an AssumedPass, for laws other than Hooke's.
+    /// True if assumed strains are those of runAssumedPass(), for laws other than Hooke's.
     bool assumesForAnyLaw() const { return !m_filter.empty() && !(m_law.empty() && m_stiffness.empty()); }
     /// Number of work units that kernels divide into ranges: blocks, or groups of blocks with patches.
     int workUnitCount() const { return hasPatches() ? static_cast<int>(m_groups.size()) : blockCount(); }

@@ -40,7 +40,7 @@ struct alignas(64) TangentBlock
 {
     Real m_cofactor[6][kLanes];  ///< C / sqrt(k): xx, yy, zz, yz, xz, xy
     Real m_bulk[kLanes];         ///< l [J]
-    Real m_patchBulk[kLanes];    ///< coefficient of the patch's mean [J]; 0 without patches; k of an AssumedPass [-]
+    Real m_patchBulk[kLanes];    ///< coefficient of the patch's mean [J]; 0 without patches; k in runAssumedPass() [-]
 };
 
 /// Element pass, once a step: F = D_s D_m^-1 of every element, its polar rotation R, its force and its part of A. With

@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE
 {
 
 template <class Real>
-HWY_INLINE void passOrthotropicLanes(const OrthotropicPass<Real>& pass, int b, int lane,
+HWY_INLINE void passOrthotropicLanes(const StretchPass<Real>& pass, int b, int lane,
                                      const StagedEdges<double, width<Real>()>& x, const Matrix<Real>& velocityEdges)
 {
     const ElementPass<Real>& plain = pass.m_elements;
@@ -57,7 +57,7 @@ HWY_INLINE void passOrthotropicLanes(const OrthotropicPass<Real>& pass, int b, i
 }
 
 template <class Real>
-void passOrthotropic(const OrthotropicPass<Real>& pass, Range blocks)
+void passOrthotropic(const StretchPass<Real>& pass, Range blocks)
 {
     const ElementPass<Real>& plain = pass.m_elements;
     StagedEdges<double, width<Real>()> x[2];
@@ -73,7 +73,7 @@ void passOrthotropic(const OrthotropicPass<Real>& pass, Range blocks)
 }
 
 template <class Real>
-void multiplyOrthotropic(const OrthotropicProduct<Real>& product, Range blocks)
+void multiplyOrthotropic(const StretchProduct<Real>& product, Range blocks)
 {
     const ElementProduct<Real>& plain = product.m_elements;
     const ElementBlocks<Real>& elements = *plain.m_elements;
@@ -102,8 +102,8 @@ void multiplyOrthotropic(const OrthotropicProduct<Real>& product, Range blocks)
     forEachVector<Real>(blocks, stage, compute);
 }
 
-BULLETFEM_KERNEL(passOrthotropic, OrthotropicPass)
-BULLETFEM_KERNEL(multiplyOrthotropic, OrthotropicProduct)
+BULLETFEM_KERNEL(passOrthotropic, StretchPass)
+BULLETFEM_KERNEL(multiplyOrthotropic, StretchProduct)
 
 }  // namespace HWY_NAMESPACE
 }  // namespace bullet_fem
@@ -113,8 +113,8 @@ HWY_AFTER_NAMESPACE();
 namespace bullet_fem
 {
 
-BULLETFEM_EXPORT_KERNEL(passOrthotropic, OrthotropicPass, runOrthotropicPass)
-BULLETFEM_EXPORT_KERNEL(multiplyOrthotropic, OrthotropicProduct, runOrthotropicProduct)
+BULLETFEM_EXPORT_KERNEL(passOrthotropic, StretchPass, runOrthotropicPass)
+BULLETFEM_EXPORT_KERNEL(multiplyOrthotropic, StretchProduct, runOrthotropicProduct)
 
 }  // namespace bullet_fem
 #endif

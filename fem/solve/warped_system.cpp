@@ -86,7 +86,7 @@ void runPass(const ElementPass<Real>& pass, const Threads* threads)
     runRanges(threads, unitsOf(*pass.m_elements), [&](Range pieces) { runElementPass(pass, pieces); });
 }
 
-/// True if the elements need the stretches of an OrthotropicPass or AssumedPass.
+/// True if the elements need a StretchPass.
 template <class Real>
 bool needsStretches(const ElementBlocks<Real>& elements)
 {
@@ -99,13 +99,12 @@ void runPassOfStretches(Body& body, const ElementPass<Real>& pass, const Threads
     const ElementBlocks<Real>& elements = *pass.m_elements;
     auto& warped = body.m_workspace.scratch().m_elements.scratch<Real>().m_stretches;
     warped.resize(elements.blockCount());
-    const AssumedPass<Real> assumed = {pass, warped.data()};
-    const OrthotropicPass<Real> orthotropic = {pass, warped.data()};
+    const StretchPass<Real> all = {pass, warped.data()};
     if (elements.assumesForAnyLaw())
-        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedPass(assumed, units); });
+        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedPass(all, units); });
     else
         runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
-                  [&](Range blocks) { runOrthotropicPass(orthotropic, blocks); });
+                  [&](Range blocks) { runOrthotropicPass(all, blocks); });
 }
 
 template <class Real>
@@ -113,13 +112,12 @@ void runProductOfStretches(const ElementProduct<Real>& product, const StretchBlo
                            const Threads* threads)
 {
     const ElementBlocks<Real>& elements = *product.m_elements;
-    const AssumedProduct<Real> assumed = {product, warped};
-    const OrthotropicProduct<Real> orthotropic = {product, warped};
+    const StretchProduct<Real> all = {product, warped};
     if (elements.assumesForAnyLaw())
-        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedProduct(assumed, units); });
+        runRanges(threads, unitsOf(elements), [&](Range units) { runAssumedProduct(all, units); });
     else
         runRanges(threads, {elements.blockCount(), kBlocksPerChunk},
-                  [&](Range blocks) { runOrthotropicProduct(orthotropic, blocks); });
+                  [&](Range blocks) { runOrthotropicProduct(all, blocks); });
 }
 
 // Runs the element pass and adds the forces to `force` [N].

@@ -65,13 +65,13 @@ struct OrthotropicCase : ElementCase<Real>
 
     std::vector<Vec3> forces()
     {
-        runOrthotropicPass(OrthotropicPass<Real>{this->pass(), m_orthotropic.data()}, this->blocks());
+        runOrthotropicPass(StretchPass<Real>{this->pass(), m_orthotropic.data()}, this->blocks());
         return this->cornerSums();
     }
     std::vector<Vec3> times(const std::vector<Vec3>& p)
     {
         const std::vector<PaddedVec3> in = padded(p);
-        runOrthotropicProduct(OrthotropicProduct<Real>{this->product(in), m_orthotropic.data()}, this->blocks());
+        runOrthotropicProduct(StretchProduct<Real>{this->product(in), m_orthotropic.data()}, this->blocks());
         return this->cornerSums();
     }
 
@@ -145,7 +145,7 @@ TEST_P(OrthotropicKernel, MatchesItsScalarReference)
         {
             ElementPass<float> pass = which.pass();
             pass.m_initialStress = stress.data();
-            return OrthotropicPass<float>{pass, which.m_orthotropic.data()};
+            return StretchPass<float>{pass, which.m_orthotropic.data()};
         };
         runOrthotropicPass(withStress(kernels), kernels.blocks());
         const std::vector<Vec3> f = kernels.cornerSums();
@@ -153,7 +153,7 @@ TEST_P(OrthotropicKernel, MatchesItsScalarReference)
         EXPECT_LE(largestDistance(f, twin.cornerSums()), 1e-5 * largest(f)) << height;
         const std::vector<Vec3> Ap = kernels.times(m_v);
         const std::vector<PaddedVec3> p = padded(m_v);
-        reference::runOrthotropicProduct(OrthotropicProduct<float>{twin.product(p), twin.m_orthotropic.data()},
+        reference::runOrthotropicProduct(StretchProduct<float>{twin.product(p), twin.m_orthotropic.data()},
                                          twin.blocks());
         EXPECT_LE(largestDistance(Ap, twin.cornerSums()), 2e-5 * largest(Ap)) << height;
     }
@@ -238,11 +238,11 @@ TEST_P(OrthotropicKernel, RangesDoNotMatter)
     deform(0.8, 0.1);
     OrthotropicCase<float> whole(shape, m_x, m_v), parts(shape, m_x, m_v);
     const std::vector<Vec3> f = whole.forces(), Ap = whole.times(m_v);
-    const OrthotropicPass<float> pass = {parts.pass(), parts.m_orthotropic.data()};
+    const StretchPass<float> pass = {parts.pass(), parts.m_orthotropic.data()};
     for (int b = parts.m_elements.blockCount() - 1; b >= 0; --b) runOrthotropicPass(pass, {b, b + 1});
     EXPECT_EQ(largestDistance(parts.cornerSums(), f), 0);
     const std::vector<PaddedVec3> p = padded(m_v);
-    const OrthotropicProduct<float> product = {parts.product(p), parts.m_orthotropic.data()};
+    const StretchProduct<float> product = {parts.product(p), parts.m_orthotropic.data()};
     for (int b = parts.m_elements.blockCount() - 1; b >= 0; --b) runOrthotropicProduct(product, {b, b + 1});
     EXPECT_EQ(largestDistance(parts.cornerSums(), Ap), 0);
 }

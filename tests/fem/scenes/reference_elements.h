@@ -27,9 +27,9 @@ template <class Real>
 void sumCorners(const NodeSums<Real>& sums, Range nodes);
 
 template <class Real>
-void runOrthotropicPass(const OrthotropicPass<Real>& pass, Range blocks);
+void runOrthotropicPass(const StretchPass<Real>& pass, Range blocks);
 template <class Real>
-void runOrthotropicProduct(const OrthotropicProduct<Real>& product, Range blocks);
+void runOrthotropicProduct(const StretchProduct<Real>& product, Range blocks);
 
 }  // namespace reference
 }  // namespace bullet_fem

@@ -59,7 +59,7 @@ struct Stretch
 };
 
 template <class Real>
-void passOrthotropic(const OrthotropicPass<Real>& pass, int b, int lane)
+void passOrthotropic(const StretchPass<Real>& pass, int b, int lane)
 {
     const ElementPass<Real>& plain = pass.m_elements;
     const Strains strains = strainsOf(plain, b, lane);
@@ -82,7 +82,7 @@ void passOrthotropic(const OrthotropicPass<Real>& pass, int b, int lane)
 }
 
 template <class Real>
-void multiplyOrthotropic(const OrthotropicProduct<Real>& product, int b, int lane)
+void multiplyOrthotropic(const StretchProduct<Real>& product, int b, int lane)
 {
     const ElementProduct<Real>& plain = product.m_elements;
     const StretchBlock<Real>& warped = product.m_warped[b];
@@ -99,23 +99,23 @@ void multiplyOrthotropic(const OrthotropicProduct<Real>& product, int b, int lan
 }  // namespace
 
 template <class Real>
-void runOrthotropicPass(const OrthotropicPass<Real>& pass, Range blocks)
+void runOrthotropicPass(const StretchPass<Real>& pass, Range blocks)
 {
     for (int b = blocks.m_begin; b < blocks.m_end; ++b)
         for (int lane = 0; lane < kLanes; ++lane) passOrthotropic(pass, b, lane);
 }
 
 template <class Real>
-void runOrthotropicProduct(const OrthotropicProduct<Real>& product, Range blocks)
+void runOrthotropicProduct(const StretchProduct<Real>& product, Range blocks)
 {
     for (int b = blocks.m_begin; b < blocks.m_end; ++b)
         for (int lane = 0; lane < kLanes; ++lane) multiplyOrthotropic(product, b, lane);
 }
 
-template void runOrthotropicPass(const OrthotropicPass<float>&, Range);
-template void runOrthotropicPass(const OrthotropicPass<double>&, Range);
-template void runOrthotropicProduct(const OrthotropicProduct<float>&, Range);
-template void runOrthotropicProduct(const OrthotropicProduct<double>&, Range);
+template void runOrthotropicPass(const StretchPass<float>&, Range);
+template void runOrthotropicPass(const StretchPass<double>&, Range);
+template void runOrthotropicProduct(const StretchProduct<float>&, Range);
+template void runOrthotropicProduct(const StretchProduct<double>&, Range);
 
 }  // namespace reference
 }  // namespace bullet_fem

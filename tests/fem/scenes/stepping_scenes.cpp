@@ -2,6 +2,12 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/scenes/stepping_scenes.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bullet_fem/fem/step/stepping.h"
+
 namespace bullet_fem
 {
 namespace
@@ -43,6 +49,26 @@ void disturb(Body& body, unsigned seed)
         body.m_state.m_x[i] += dx;
         body.m_state.m_v[i] = v;
     }
+}
+
+void expectEnergyGradient(Body& body, const std::vector<Vec3>& forces, std::size_t stride)
+{
+    constexpr double kShift = 1e-6;  // [m]
+    double most = 0;
+    for (const Vec3& force : forces) most = std::max(most, norm(force));
+    const std::vector<Vec3> x = body.m_state.m_x;
+    for (std::size_t i = 0; i < x.size(); i += stride)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            double energy[2];
+            for (const int side : {0, 1})
+            {
+                body.m_state.m_x = x;
+                body.m_state.m_x[i][axis] += side == 0 ? -kShift : kShift;
+                energy[side] = mechanicalEnergy(body);
+            }
+            EXPECT_NEAR(forces[i][axis], -(energy[1] - energy[0]) / (2 * kShift), 1e-5 * most) << i << ", " << axis;
+        }
 }
 
 }  // namespace bullet_fem

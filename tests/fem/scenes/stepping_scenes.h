@@ -19,4 +19,8 @@ Body freeBlock();
 /// Strains of some 10 %, velocities of 0.5 m/s and loads of 3 N a node, at random; fixed nodes stand still.
 void disturb(Body& body, unsigned seed = 7);
 
+/// Expects nodal forces [N] to be the gradient of mechanicalEnergy() by central differences, at every `stride`-th node,
+/// to 1e-5 of the largest one. Leaves the body displaced.
+void expectEnergyGradient(Body& body, const std::vector<Vec3>& forces, std::size_t stride = 1);
+
 }  // namespace bullet_fem
