@@ -65,7 +65,10 @@ TEST(ThinMesh, BallsAndCylindersOfFourCellsAreNotThin)
     for (const int n : {2, 3, 4, 5, 6})
     {
         EXPECT_EQ(isThinSomewhere(makeSphere(1, n)), n < 4) << n;
-        if (n % 2 == 0) EXPECT_EQ(isThinSomewhere(makeCylinder(1, 3, n, 2 * n)), n < 4) << n;
+        if (n % 2 == 0)
+        {
+            EXPECT_EQ(isThinSomewhere(makeCylinder(1, 3, n, 2 * n)), n < 4) << n;
+        }
     }
 }
 
