@@ -97,10 +97,9 @@ Material unsetMaterialOf(const btSoftBody& body)
 {
     const btSoftBody::Material* spring = body.m_tetras.size() > 0 ? body.m_tetras[0].m_material : nullptr;
     const double kLST = spring ? std::clamp(double(spring->m_kLST), 1e-3, 1.0) : 1.0;
-    Material material;
+    Material material = withProgramDefaults({});
     material.m_youngModulus = 1e6 * (std::isfinite(kLST) ? kLST : 1.0);
     material.m_density = 0;
-    material.m_stiffnessDamping = 0.005;
     return material;
 }
 

@@ -179,11 +179,10 @@ bool ElementMaterials::choosesBending() const
 ElementMaterials ElementMaterials::withBending(bool isThin) const
 {
     ElementMaterials chosen = *this;
-    const bool bears = isThin && !isNonlinear();
     for (auto& [label, material] : chosen.m_regions)
         if (material.m_bending == Bending::automatic)
             material.m_bending =
-                bears && material.m_meanDilatation != MeanDilatation::off ? Bending::accurate : Bending::plain;
+                isThin && material.m_meanDilatation != MeanDilatation::off ? Bending::accurate : Bending::plain;
     return chosen;
 }
 

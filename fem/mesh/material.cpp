@@ -242,4 +242,11 @@ Material Material::mildFoam()
     return material;
 }
 
+Material withProgramDefaults(Material material)
+{
+    material.m_bending = Bending::automatic;
+    if (material.m_stiffnessDamping == 0) material.m_stiffnessDamping = 0.005;
+    return material;
+}
+
 }  // namespace bullet_fem

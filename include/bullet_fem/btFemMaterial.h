@@ -81,9 +81,9 @@ struct BULLETFEM_API btFemMaterial
     /// Constitutive law; E and nu are its small-strain constants. Only hooke can yield or relax.
     btFemElasticLaw m_law = btFemElasticLaw::hooke;
     /// Remedy against locking in bending (docs/materials.md). With `accurate` bars of two or more cells across have a
-    /// bending error of at most 5 %, and a step takes 1.3 to 1.7 times as long. It is not available with mean
-    /// dilatation off; `automatic` is plain there, and in bodies with a region of the law neoHooke, ogden or damage.
-    btFemBending m_bending = btFemBending::plain;
+    /// bending error of at most 5 %, and a step takes 1.3 to 1.4 times as long. It is not available with mean
+    /// dilatation off, and `automatic` is plain there.
+    btFemBending m_bending = btFemBending::automatic;
     /// Constants for btFemElasticLaw::orthotropic, which ignores E and nu. An orthotropic material cannot yield or
     /// relax, and takes mean dilatation with accurate bending alone. For directions that vary in space,
     /// pass a function of position to setMaterials.

@@ -39,7 +39,7 @@ void takeMesh(SoftRequest& request, const py::object& mesh, const py::object& ma
     else if (py::isinstance<Material>(material))
         request.m_materials.m_base = material.cast<Material>();
     else if (material.is_none())
-        request.m_materials.m_base.m_stiffnessDamping = 0.005;  // as Material() of Python
+        request.m_materials.m_base = withProgramDefaults({});
     else
         throw py::type_error("material is " + std::string(py::repr(material)) +
                              ": it must be a Material or ElementMaterials");

@@ -19,7 +19,6 @@ namespace
 {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kStiffnessDamping = 0.005;  // [s], as btFemMaterial has, where Material has none
 
 struct Field
 {
@@ -194,12 +193,6 @@ void addChoices(Class& material)
     addAxis(material, "across", &Orthotropic::m_across, "Axis 2 of law 'orthotropic' in the mesh, a direction (3,).");
 }
 
-Material damped(Material material)
-{
-    material.m_stiffnessDamping = kStiffnessDamping;
-    return material;
-}
-
 std::vector<double> valuesOf(py::handle object, const char* name)
 {
     if (object.is_none()) return {};
@@ -247,13 +240,31 @@ void bindElementMaterials(py::module_& module)
             "A label for each element, integers (m,), such as Mesh.regions, and a dict of a material for each label.");
 }
 
+void addPresets(py::class_<Material>& material)
+{
+    const std::pair<const char*, Material (*)()> presets[] = {
+        {"rubber", &Material::rubber}, {"foam", &Material::foam},         {"jelly", &Material::jelly},
+        {"flesh", &Material::flesh},   {"wood", &Material::wood},         {"clay", &Material::clay},
+        {"lead", &Material::lead},     {"mild_foam", &Material::mildFoam}};
+    for (const auto& [name, make] : presets)
+        material.def_static(
+            name, [make = make] { return withProgramDefaults(make()); }, "A preset of docs/materials.md.");
+    material
+        .def_static(
+            "shore_a", [](double hardness) { return withProgramDefaults(shoreA(hardness)); }, py::arg("hardness"),
+            "Rubber of a hardness on Shore's scale A, in [10, 95].")
+        .def_static(
+            "shore_d", [](double hardness) { return withProgramDefaults(shoreD(hardness)); }, py::arg("hardness"),
+            "Hard rubber or thermoplastic elastomer of a hardness on Shore's scale D, in [30, 70].");
+}
+
 }  // namespace
 
 void bindMaterials(py::module_& module)
 {
     py::class_<Material> material(module, "Material", py::module_local(),
                                   "An elastic material in SI units, for bodies and for baking.");
-    material.def(py::init([] { return damped(Material()); }));
+    material.def(py::init([] { return withProgramDefaults(Material()); }));
     for (const Field& field : kFields)
         material.def_property(
             field.m_name, [&field](const Material& self) { return self.*field.m_member; },
@@ -265,7 +276,7 @@ void bindMaterials(py::module_& module)
         .def(py::init(
                  [](const py::kwargs& values)
                  {
-                     py::object result = py::cast(damped(Material()));
+                     py::object result = py::cast(withProgramDefaults(Material()));
                      for (const auto& [name, value] : values)
                      {
                          if (!py::hasattr(py::type::of<Material>(), name))
@@ -292,17 +303,8 @@ void bindMaterials(py::module_& module)
                  return py::str("Material(young_modulus={}, poisson_ratio={}, density={})")
                      .format(self.m_youngModulus, self.m_poissonRatio, self.m_density);
              });
-    const std::pair<const char*, Material (*)()> presets[] = {
-        {"rubber", &Material::rubber}, {"foam", &Material::foam},         {"jelly", &Material::jelly},
-        {"flesh", &Material::flesh},   {"wood", &Material::wood},         {"clay", &Material::clay},
-        {"lead", &Material::lead},     {"mild_foam", &Material::mildFoam}};
-    for (const auto& [name, make] : presets)
-        material.def_static(
-            name, [make = make] { return damped(make()); }, "A preset of docs/materials.md.");
+    addPresets(material);
     material
-        .def_static("shore_a", &shoreA, py::arg("hardness"), "Rubber of a hardness on Shore's scale A, in [10, 95].")
-        .def_static("shore_d", &shoreD, py::arg("hardness"),
-                    "Hard rubber or thermoplastic elastomer of a hardness on Shore's scale D, in [30, 70].")
         .def("set_loss_factor", &setLossFactor, py::arg("loss_factor"), py::arg("frequency"),
              "Sets stiffness_damping so that the loss factor [-] at a frequency [Hz] is this; mass_damping stays.")
         .def("loss_factor", &lossFactor, py::arg("frequency"), "The loss factor [-] at a frequency [Hz].");

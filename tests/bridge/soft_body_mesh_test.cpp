@@ -48,6 +48,7 @@ TEST(SoftBodyMesh, TheUnsetMaterialFollowsTheSpringStiffness)
     box.m_body->m_materials[0]->m_kLST = btScalar(0.5);
     EXPECT_NEAR(unsetMaterialOf(*box.m_body).m_youngModulus, 5e5, 1);
     EXPECT_EQ(unsetMaterialOf(*box.m_body).m_density, 0);
+    EXPECT_EQ(unsetMaterialOf(*box.m_body).m_bending, Bending::automatic);
     box.m_body->m_materials[0]->m_kLST = std::numeric_limits<btScalar>::quiet_NaN();
     EXPECT_TRUE(unsetMaterialOf(*box.m_body).valid());
 }

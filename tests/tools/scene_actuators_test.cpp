@@ -28,7 +28,7 @@ Reports reportsOf(SceneRun& run)
 std::string floating(const std::string& mesh, const std::string& actuators, const std::string& more = "")
 {
     return R"({ "gravity": [0, 0, 0], "softBodies": [{ "name": "pad", "mesh": )" + mesh +
-           R"(, "material": { "young": 1e5, "poisson": 0.3, "stiffnessDamping": 0.02 })" + more +
+           R"(, "material": { "young": 1e5, "poisson": 0.3, "stiffnessDamping": 0.02, "bending": "plain" })" + more +
            R"( }], "actuators": [)" + actuators + "] }";
 }
 

@@ -192,7 +192,7 @@ TEST_F(SceneReader, ReadsWhetherAMaterialBendsAccurately)
             .m_softBodies[0]
             .m_material.m_bending;
     };
-    EXPECT_EQ(bends(""), Bending::plain);
+    EXPECT_EQ(bends(""), Bending::automatic);
     EXPECT_EQ(bends(R"("bending": "auto")"), Bending::automatic);
     EXPECT_EQ(bends(R"("bending": "plain")"), Bending::plain);
     EXPECT_EQ(bends(R"("bending": "accurate")"), Bending::accurate);
@@ -239,8 +239,8 @@ TEST_F(SceneReader, ReadsHardnessAndLossFactor)
             .m_softBodies[0]
             .m_material;
     };
-    EXPECT_EQ(material(R"("shoreA": 40)"), shoreA(40));
-    EXPECT_EQ(material(R"("shoreD": 50)"), shoreD(50));
+    EXPECT_EQ(material(R"("shoreA": 40)"), withProgramDefaults(shoreA(40)));
+    EXPECT_EQ(material(R"("shoreD": 50)"), withProgramDefaults(shoreD(50)));
     const Material given =
         material(R"("shoreA": 40, "poisson": 0.45, "massDamping": 1, "loss": { "factor": 0.3, "frequency": 5 })");
     EXPECT_EQ(given.m_youngModulus, shoreA(40).m_youngModulus);

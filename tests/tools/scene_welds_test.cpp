@@ -23,7 +23,7 @@ std::string clampedBar(const std::string& pieces, const std::string& more, const
 {
     return R"({ "gravity": )" + gravity + R"(, "step": 0.01, "softBodies": [{ "name": "bar",
       "mesh": { "box": [1, 0.2, 0.2], "cell": 0.1 },
-      "material": { "young": 1e5, "poisson": 0, "massDamping": 4, "stiffnessDamping": 0.05 },
+      "material": { "young": 1e5, "poisson": 0, "massDamping": 4, "stiffnessDamping": 0.05, "bending": "plain" },
       "pins": [{ "low": [-1, -1, -1], "high": [-0.49, 1, 1] }])" +
            pieces + " }]" + more + " }";
 }

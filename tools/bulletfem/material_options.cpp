@@ -134,7 +134,7 @@ void MaterialOptions::add(CLI::App& command)
         .add_option(
             "--bending", m_bending,
             "plain, accurate (assumed strains, so that few cells bend as they should) or auto: accurate in bodies "
-            "with fewer than four cells across somewhere (default plain)")
+            "with fewer than four cells across somewhere (default auto)")
         ->check(CLI::IsMember({"plain", "accurate", "auto"}));
     command
         .add_option("--law", m_law,
@@ -150,11 +150,10 @@ void MaterialOptions::add(CLI::App& command)
 
 Material MaterialOptions::base() const
 {
-    if (m_shoreA) return shoreA(*m_shoreA);
-    if (m_shoreD) return shoreD(*m_shoreD);
-    Material material = m_preset.empty() ? Material() : kPresets.at(m_preset);
-    material.m_stiffnessDamping = 0.005;  // as in btFemMaterial
-    return material;
+    return withProgramDefaults(m_shoreA           ? shoreA(*m_shoreA)
+                               : m_shoreD         ? shoreD(*m_shoreD)
+                               : m_preset.empty() ? Material()
+                                                  : kPresets.at(m_preset));
 }
 
 Material MaterialOptions::material() const
@@ -169,9 +168,9 @@ Material MaterialOptions::material() const
     material.m_meanDilatation = m_meanDilatation == "on"    ? MeanDilatation::on
                                 : m_meanDilatation == "off" ? MeanDilatation::off
                                                             : MeanDilatation::automatic;
-    material.m_bending = m_bending == "auto"       ? Bending::automatic
+    material.m_bending = m_bending == "plain"      ? Bending::plain
                          : m_bending == "accurate" ? Bending::accurate
-                                                   : Bending::plain;
+                                                   : Bending::automatic;
     material.m_law = law().value_or(material.m_law);
     return material;
 }

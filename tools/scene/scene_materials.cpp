@@ -15,13 +15,6 @@ namespace bullet_fem
 namespace
 {
 
-// Applies the plug-in's default stiffness damping.
-Material damped(Material material)
-{
-    material.m_stiffnessDamping = 0.005;
-    return material;
-}
-
 void readRelaxation(const JsonCursor& at, Material& material)
 {
     const std::vector<JsonCursor> terms = at.items();
@@ -71,8 +64,8 @@ Material baseMaterial(const JsonCursor& at, const SceneMaterials& known)
 {
     if (int(at.has("like")) + int(at.has("shoreA")) + int(at.has("shoreD")) > 1)
         at.fail("has two of 'like', 'shoreA' and 'shoreD', which give all values; give one");
-    if (at.has("shoreA")) return shoreA(at["shoreA"].number({kMinShoreA, kMaxShoreA}));
-    if (at.has("shoreD")) return shoreD(at["shoreD"].number({kMinShoreD, kMaxShoreD}));
+    if (at.has("shoreA")) return withProgramDefaults(shoreA(at["shoreA"].number({kMinShoreA, kMaxShoreA})));
+    if (at.has("shoreD")) return withProgramDefaults(shoreD(at["shoreD"].number({kMinShoreD, kMaxShoreD})));
     return at.has("like") ? materialCalled(at["like"], known) : defaultMaterial();
 }
 
@@ -126,15 +119,16 @@ void readLoss(const JsonCursor& at, Material& material)
 
 Material defaultMaterial()
 {
-    return damped({});
+    return withProgramDefaults({});
 }
 
 SceneMaterials presetMaterials()
 {
-    return {{"rubber", damped(Material::rubber())}, {"foam", damped(Material::foam())},
-            {"jelly", damped(Material::jelly())},   {"flesh", damped(Material::flesh())},
-            {"wood", damped(Material::wood())},     {"clay", damped(Material::clay())},
-            {"lead", damped(Material::lead())},     {"mildFoam", damped(Material::mildFoam())}};
+    return {
+        {"rubber", withProgramDefaults(Material::rubber())}, {"foam", withProgramDefaults(Material::foam())},
+        {"jelly", withProgramDefaults(Material::jelly())},   {"flesh", withProgramDefaults(Material::flesh())},
+        {"wood", withProgramDefaults(Material::wood())},     {"clay", withProgramDefaults(Material::clay())},
+        {"lead", withProgramDefaults(Material::lead())},     {"mildFoam", withProgramDefaults(Material::mildFoam())}};
 }
 
 const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known)

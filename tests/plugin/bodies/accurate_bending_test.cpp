@@ -251,6 +251,18 @@ TEST(AccurateBendingBodies, AreChosenWhereBodiesAreThin)
     EXPECT_LT(thick, .93);
 }
 
+// Programs, scenes, baked bodies and Python start from one material.
+TEST(AccurateBendingBodies, AreChosenByDefault)
+{
+    EXPECT_EQ(btFemMaterial().m_bending, btFemBending::automatic);
+    Material material = withProgramDefaults({});
+    EXPECT_EQ(material.m_bending, Bending::automatic);
+    EXPECT_FLOAT_EQ(float(btFemMaterial().m_stiffnessDamping), float(material.m_stiffnessDamping));
+    material.m_stiffnessDamping = 0.1;
+    EXPECT_EQ(withProgramDefaults(material).m_stiffnessDamping, 0.1);
+    EXPECT_EQ(sagOverBeam(btFemMaterial().m_bending, 2), sagOverBeam(btFemBending::accurate, 2));
+}
+
 TEST(AccurateBendingBodies, RejectIncompatibleOptions)
 {
     BendingScene scene;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bullet_fem/btFemHelpers.h"
@@ -223,6 +224,46 @@ TEST(RelaxationOfBodies, BoundsAreTakenInEveryPrecision)
     EXPECT_FALSE(material.valid()) << "1 in total";
 }
 
+// Depth [m] of the dent that a kinematic ball of 0.2 m radius leaves when it is pressed by 20 mm into clay 0.1 m thick
+// on a rigid base, where it loses contact, and the force at that depth [N].
+std::pair<double, double> dentOf(int cellsAcross)
+{
+    constexpr double kRadius = 0.2, kThick = 0.1, kDepth = 0.02, kStep = 1.0 / 240;
+    btFemSoftBodySolver fem;
+    SoftWorld world(fem, Coupling::coupled, btVector3(0, 0, 0));
+    const int n = cellsAcross;
+    btSoftBody& panel = addSoftBox(world, fem, {{0.3, 0.3, kThick}, {3 * n, 3 * n, n}, {0, 0, kThick / 2}});
+    fem.setMaterial(&panel, softClay());
+    for (int i = 0; i < panel.m_nodes.size(); ++i)
+        if (panel.m_nodes[i].m_x.z() < btScalar(1e-3)) panel.setMass(i, 0);
+    const auto poseAt = [&](double depth) { return at(0, 0, btScalar(kThick + kRadius - depth)); };
+    btRigidBody& ball = world.addRigid(new btSphereShape(btScalar(kRadius)), {0, poseAt(-1e-3)});
+    ball.setCollisionFlags(ball.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    const auto force = [&] { return -double(fem.contactForce(&panel, &ball).z()); };
+    const auto moveTo = [&](double depth)
+    {
+        ball.getMotionState()->setWorldTransform(poseAt(depth));
+        world.step(1, btScalar(kStep));
+    };
+    for (int k = 0; k <= 240; ++k) moveTo(kDepth * k / 240);
+    for (int k = 0; k < 24; ++k) moveTo(kDepth);
+    const double held = force();
+    double depth = kDepth;
+    while (depth > 0 && force() > 0.02 * held) moveTo(depth -= 1e-4);
+    return {depth, held};
+}
+
+// Both are resolved by cells of 50 mm as by those of 25 mm; the elastic part springs back.
+TEST(PlasticityOfBodies, DentsAreAlikeAtTwoMeshSizes)
+{
+    const auto [coarse, coarseForce] = dentOf(2);
+    const auto [fine, fineForce] = dentOf(4);
+    EXPECT_NEAR(coarse / fine, 1, 0.05);
+    EXPECT_NEAR(coarseForce / fineForce, 1, 0.1);
+    EXPECT_LT(fine, 0.019);
+    EXPECT_GT(fine, 0.015);
+}
+
 // A cube at rest on the ground sags more as its modulus relaxes: half the modulus, twice the sag.
 TEST(RelaxationOfBodies, ACubeSinksSlowly)
 {
@@ -236,6 +277,7 @@ TEST(RelaxationOfBodies, ACubeSinksSlowly)
     material.m_poissonRatio = 0;
     material.m_massDamping = 2;
     material.m_relaxation[0] = {btScalar(0.5), 2};
+    material.m_bending = btFemBending::plain;
     fem.setMaterial(&cube, material);
     const auto top = [&cube]
     {

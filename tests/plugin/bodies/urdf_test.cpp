@@ -96,6 +96,7 @@ TEST_F(UrdfBody, RestsWithItsWeightSqueezedAsItsModuliSay)
     btRigidBody& floor = m_world.addFloorBox();
     btSoftBody& cube = load(
         "<friction value='0'/><neohookean mu='10000' lambda='10000' damping='0.02'/><visual filename='cube.vtk'/>");
+    m_material.m_bending = btFemBending::plain;
     m_fem.setMaterial(&cube, m_material);
     std::vector<int> top;
     for (int i = 0; i < cube.m_nodes.size(); ++i)

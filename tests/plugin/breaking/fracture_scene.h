@@ -86,6 +86,7 @@ public:
         material.m_youngModulus = bar.m_youngModulus;
         material.m_poissonRatio = bar.m_poissonRatio;
         material.m_massDamping = bar.m_massDamping;
+        material.m_bending = btFemBending::plain;
         m_fem.setMaterial(m_bar, material);
         m_fem.prepare(m_bar, kStep);
     }

@@ -73,6 +73,7 @@ public:
         m_material.m_youngModulus = box.m_youngModulus;
         m_material.m_poissonRatio = box.m_poissonRatio;
         m_material.m_massDamping = box.m_massDamping;
+        m_material.m_bending = btFemBending::plain;  // patches of accurate bending end at welds
         for (const btFemPiece& piece : m_pieces)
         {
             m_world.addSoft(piece.m_body);

@@ -298,7 +298,7 @@ void bridge(RewindScene& scene)
 
 const NamedScene kScenes[] = {{"rigidOnSoft", rigidOnSoft},
                               {"softOnRigid", softOnRigid},
-                              {"tower", tower, 20},
+                              {"tower", tower, 20, 4e-4},
                               {"pushed", pushed},
                               {"arm", arm, 120, 2e-3},
                               {"pendulum", pendulum},

@@ -165,7 +165,7 @@ std::vector<SharpMesh> sharpMeshes()
             {"Crack", {blockOf({-4, -0.1, -4, 4}, -1, 0), blockOf({0.1, 4, -4, 4}, -1, 0)}, {0.02, 0.03, 0.05}},
             {"Groove", groove, {0.02, 0.03, -0.9}, onEdge},
             {"Hole", holeOf(0.35), {0.02, 0.03, -0.2}, onCorner, SharpBody::cube, 0, false},
-            {"TipToTip", spike, {0.04, 0.02, 0.55}, turned, SharpBody::spike},
+            {"TipToTip", spike, {0.04, 0.02, 0.55}, turned, SharpBody::spike, 0, true, 0.03},
             {"EdgeToEdge",
              ridge,
              {0.1, 0, 0.55},

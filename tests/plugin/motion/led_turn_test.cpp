@@ -49,6 +49,7 @@ protected:
         material.m_poissonRatio = 0;
         material.m_density = btScalar(kDensity);
         material.m_stiffnessDamping = btScalar(std::get<1>(GetParam()));
+        material.m_bending = btFemBending::plain;  // gives way least beside the hinge, whose stress is singular
         m_world.fem().setMaterial(m_bar, material);
         m_world.addSoft(m_bar);
         const Carrier carrier = std::get<0>(GetParam());

@@ -86,6 +86,7 @@ TEST_P(RigidRollers, CoastOnASoftSlab)
     box.m_center = {0, 0, -0.1 + 0.2};
     box.m_youngModulus = btScalar(3e5);
     box.m_friction = 1;
+    box.m_bending = btFemBending::plain;
     addSoftBox(world, world.fem(), box);
     btRigidBody& body = addRoller(world, roller, -1);
     body.translate(btVector3(0, 0, btScalar(0.2)));

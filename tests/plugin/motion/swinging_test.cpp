@@ -38,6 +38,7 @@ protected:
         material.m_youngModulus = static_cast<btScalar>(std::get<1>(GetParam()));
         material.m_stiffnessDamping = 0;
         material.m_massDamping = 0;
+        material.m_bending = btFemBending::plain;
         m_fem.setMaterial(m_bar, material);
         const bool isPin = std::get<0>(GetParam()) == Hold::pin;
         for (int i = 0; i < m_bar->m_nodes.size(); ++i)

@@ -125,6 +125,7 @@ private:
         material.m_youngModulus = btScalar(GetParam().m_youngModulus);
         material.m_stiffnessDamping = btScalar(GetParam().m_stiffnessDamping);
         material.m_massDamping = 0;
+        material.m_bending = btFemBending::plain;
         m_world.fem().setMaterial(&bar, material);
         bar.m_cfg.collisions = 0;
         return m_world.addSoft(&bar);

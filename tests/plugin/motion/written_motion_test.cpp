@@ -193,7 +193,7 @@ TEST_P(WrittenMotion, IsTheStateToWhichABodyIsPutBack)
     for (int i = 0; i < bar.m_body->m_nodes.size(); ++i) v.push_back(bar.m_body->m_nodes[i].m_v);
     bar.step(steps);
     const std::vector<btVector3> later = bar.positions();
-    EXPECT_GT(bar.distanceFrom(x), 0.05);
+    EXPECT_GT(bar.distanceFrom(x), 0.04);
     for (int i = 0; i < bar.m_body->m_nodes.size(); ++i)
     {
         bar.m_body->m_nodes[i].m_x = x[i];

@@ -30,6 +30,7 @@ inline btFemMaterial bulletMaterial(const Material& m)
     material.m_massDamping = static_cast<btScalar>(m.m_massDamping);
     material.m_stiffnessDamping = static_cast<btScalar>(m.m_stiffnessDamping);
     material.m_law = static_cast<btFemElasticLaw>(m.m_law);
+    material.m_bending = static_cast<btFemBending>(m.m_bending);
     return material;
 }
 

@@ -84,6 +84,7 @@ public:
         box.m_center = foot + Vec3{0, 0, kEdge / 2};
         box.m_youngModulus = btScalar(2e5);
         box.m_friction = 1;
+        box.m_bending = btFemBending::plain;
         btSoftBody& cube = addSoftBox(m_world, m_world.fem(), box);
         for (int i = 0; i < cube.m_nodes.size(); ++i) cube.m_nodes[i].m_v = bulletVector(velocity);
         m_softPayloads.push_back(&cube);

@@ -24,6 +24,7 @@ btSoftBody* makeSoftBox(btSoftBodyWorldInfo& info, btFemSoftBodySolver& fem, con
     btFemMaterial material;
     material.m_youngModulus = box.m_youngModulus;
     material.m_density = box.m_density;
+    material.m_bending = box.m_bending;
     fem.setMaterial(body, material);
     return body;
 }

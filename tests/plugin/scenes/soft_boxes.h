@@ -21,6 +21,7 @@ struct SoftBox
     btScalar m_density = 1000;                ///< [kg/m3]
     btScalar m_friction = btScalar(0.5);      ///< its kDF [-]
     double m_turn = 0;                        ///< about the vertical through its centre [rad]
+    btFemBending m_bending = btFemBending::automatic;
 };
 
 /// Makes the body with its material.

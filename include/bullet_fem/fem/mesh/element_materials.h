@@ -75,8 +75,8 @@ struct BULLETFEM_API ElementMaterials
     bool bendsAccurately() const;
     /// True if any region has Bending::automatic.
     bool choosesBending() const;
-    /// These materials with Bending::automatic replaced: by accurate in a thin body whose laws are linear, unless
-    /// mean dilatation is off, else by plain. Allocates.
+    /// These materials with Bending::automatic replaced: by accurate in a thin body unless mean dilatation is off, else
+    /// by plain. Allocates.
     ElementMaterials withBending(bool isThin) const;
     /// True if any region has a yield stress.
     bool yields() const;

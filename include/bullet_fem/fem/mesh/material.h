@@ -79,8 +79,7 @@ struct BULLETFEM_API Material
     /// most 0.99.
     std::array<PronyTerm, kMaxRelaxationTerms> m_relaxation = {};
 
-    /// Whether bending does not lock. `accurate` is not available with mean dilatation off; `automatic` is plain
-    /// there, and in bodies with a region of a law that varies.
+    /// Whether bending does not lock. `accurate` is not available with mean dilatation off; `automatic` is plain there.
     Bending m_bending = Bending::plain;
     /// The constitutive law; E and nu are its small-strain constants.
     ElasticLaw m_law = ElasticLaw::hooke;
@@ -139,5 +138,9 @@ struct BULLETFEM_API Material
     /// True if any value that the law reads differs.
     friend bool operator!=(const Material& a, const Material& b) { return !(a == b); }
 };
+
+/// A material with the settings that a btFemMaterial starts from, for scenes, the command line and Python: automatic
+/// bending, and a stiffness damping of 0.005 s unless the material has one.
+BULLETFEM_API Material withProgramDefaults(Material material);
 
 }  // namespace bullet_fem
