@@ -6,7 +6,6 @@
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
-#include "bullet_bridge/contact/rigid/inner_faces.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
 namespace bullet_fem
@@ -50,7 +49,6 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
         report.m_encloses = report.m_encloses || isEnclosed(m_scope, target);
     }
     reserve();
-    turnFromInnerFaces(m_scope, m_targets.targets(), m_matcher.heldNormal(), m_near);
     m_filter.judge(m_scope, m_targets.targets(), m_near);
     for (const ContactTarget& target : m_targets.targets()) findWithinStep(target);
     const double cell = ContactReduction::cellOf(fem);
@@ -70,6 +68,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
 // Finds the contacts of a target as the step begins, and the candidates within the step.
 void ContactFinder::findNear(ContactTarget& target)
 {
+    const InnerFaces innerFaces(m_targets.targets(), m_matcher.heldNormal());
     target.m_first = m_near.size();
     const btCollisionShape& shape = *target.m_shape->m_shape;
     if (isSheet(shape))
@@ -80,10 +79,10 @@ void ContactFinder::findNear(ContactTarget& target)
     else if (isSolid(shape) && isFastTarget(m_scope, target))
     {
         target.m_kind = TargetKind::fast;
-        findTouchingNodes(m_scope, target, m_near);
+        findTouchingNodes(m_scope, innerFaces, target, m_near);
     }
     else if (m_scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, target.m_reach}))
-        m_nodes.find(m_scope, target, m_near);
+        m_nodes.find(m_scope, innerFaces, target, m_near);
     target.m_end = m_near.size();
 }
 

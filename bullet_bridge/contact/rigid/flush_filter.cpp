@@ -13,7 +13,6 @@ namespace
 constexpr double kMinStep = 0.25;  // smallest height of a step above a carrier, over the lift; lower ones are flush
 constexpr double kApart = 0.05;    // gap of separated surfaces, over the lift; resting ones have less
 constexpr double kFlushReach = 4;  // radius of the search for a wall near a lifted point, over the lift
-constexpr double kParallelCosine = 0.999;  // smallest cosine of normals of one surface
 
 // Number of the surface of contact k: a convex shape, or one triangle of a sheet.
 int surfaceNumber(const std::vector<ContactTarget>& targets, std::size_t target, std::size_t k)

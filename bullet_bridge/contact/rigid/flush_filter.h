@@ -11,7 +11,8 @@
 namespace bullet_fem
 {
 
-constexpr double kCarrierCosine = 0.7;  ///< smallest cosine of normals of surfaces that carry together [-]
+constexpr double kCarrierCosine = 0.7;     ///< smallest cosine of normals of surfaces that carry together [-]
+constexpr double kParallelCosine = 0.999;  ///< smallest cosine of normals of one surface [-]
 
 /// Finds the contacts with side walls that are flush with a surface that carries the point: they do not obstruct it.
 /// Convex shapes beyond the contact band are judged by their paths instead. Scratch grows with the contacts, never

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/contact/rigid/inner_faces.h"
 
-#include <algorithm>
-
 #include "bullet_bridge/contact/rigid/flush_filter.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
@@ -11,25 +9,6 @@ namespace bullet_fem
 {
 namespace
 {
-
-bool isSlowSolid(const ContactTarget& target)
-{
-    return target.m_kind == TargetKind::slow && isSolid(*target.m_shape->m_shape);
-}
-
-// True if a point of a target's surface lies on a face of another target, or below it, that looks the other way.
-bool isOnInnerFace(const SearchScope& scope, const std::vector<ContactTarget>& targets, const ContactTarget& target,
-                   const Vec3& point, const Vec3& normal)
-{
-    return std::any_of(targets.begin(), targets.end(),
-                       [&](const ContactTarget& other)
-                       {
-                           SurfaceDistance d;
-                           return &other != &target && isSlowSolid(other) &&
-                                  pointShapeDistance(*other.m_shape, point, scope.m_advantage, d) &&
-                                  d.m_gap <= scope.m_advantage && dot(d.m_normal, normal) < -kCarrierCosine;
-                       });
-}
 
 // Unit vector into the body at a vertex, or from an exposed inner node to its middle.
 Vec3 inwardAt(const SearchScope& scope, int vertex)
@@ -48,7 +27,8 @@ Vec3 inwardAt(const SearchScope& scope, int vertex)
 }
 
 // The distance of a point that has sunk in against `held`, from where it came: from the nearest of the points farther
-// and farther back of which the shape is on that side. False if there is none within the body's size.
+// and farther back of which the shape is on that side. Over a rim that side is the plane through it. False if there is
+// none within the body's size.
 bool distanceFromBefore(const SearchScope& scope, const ContactTarget& target, const Vec3& point, const Vec3& held,
                         SurfaceDistance& d)
 {
@@ -56,8 +36,13 @@ bool distanceFromBefore(const SearchScope& scope, const ContactTarget& target, c
     {
         const Vec3 before = point + lift * held;
         if (!pointShapeDistance(*target.m_shape, before, lift + target.m_reach, d)) return false;
-        if (dot(d.m_normal, held) < kCarrierCosine) continue;
-        d.m_gap -= lift * dot(d.m_normal, held);
+        const double cosine = dot(d.m_normal, held);
+        if (cosine < kCarrierCosine) continue;
+        const Vec3 beside = d.m_gap * (d.m_normal - cosine * held);
+        if (norm(beside) <= scope.m_advantage)
+            d = {d.m_gap * cosine - lift, held, {}};
+        else
+            d.m_gap -= lift * cosine;
         return true;
     }
     return false;
@@ -65,31 +50,49 @@ bool distanceFromBefore(const SearchScope& scope, const ContactTarget& target, c
 
 }  // namespace
 
-void turnFromInnerFaces(const SearchScope& scope, const std::vector<ContactTarget>& targets,
-                        const std::vector<Vec3>& heldNormal, ContactList& near)
+void InnerFaces::turn(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes,
+                      SurfaceDistance& d) const
 {
-    if (targets.size() < 2) return;
-    const FemSoftBody& fem = scope.fem();
-    for (const ContactTarget& target : targets)
+    if (m_targets.size() < 2 || !(d.m_gap <= scope.m_advantage && d.m_gap >= -scope.m_band)) return;
+    if (!isSolid(*target.m_shape->m_shape)) return;
+    const Vec3 held = heldAt(scope, nodes, d.m_barycentric);
+    if (norm(held) == 0 || dot(held, d.m_normal) > kParallelCosine) return;
+    const double offset = scope.fem().m_settings.m_contactOffset;
+    const Vec3 point = interpolated(scope.fem().surfacePosition(), nodes, d.m_barycentric);
+    const Beside beside = besideOf(scope, target, point - (d.m_gap + offset) * d.m_normal, d.m_normal);
+    SurfaceDistance before;
+    if (beside == Beside::none || !distanceFromBefore(scope, target, point, held, before)) return;
+    before.m_gap -= offset;
+    if (beside != Beside::innerFace && before.m_gap < -scope.m_advantage) return;
+    d.m_gap = before.m_gap;
+    d.m_normal = before.m_normal;
+}
+
+// The place of a point of a target's surface: away from other targets, on the surface of one or below it, or on a face
+// of one that looks the other way.
+InnerFaces::Beside InnerFaces::besideOf(const SearchScope& scope, const ContactTarget& target, const Vec3& foot,
+                                        const Vec3& normal) const
+{
+    Beside beside = Beside::none;
+    for (const ContactTarget& other : m_targets)
     {
-        if (!isSlowSolid(target)) continue;
-        for (std::size_t k = target.m_first; k < target.m_end; ++k)
-        {
-            ContactPoint& contact = near.points()[k];
-            const int vertex = near.origins()[k].m_feature;
-            const bool isShallow = contact.m_gap <= scope.m_advantage && contact.m_gap >= -scope.m_band;
-            if (!isShallow || vertex >= fem.m_surface.topology().vertexCount()) continue;
-            const double apart = contact.m_gap + fem.m_settings.m_contactOffset;
-            const Vec3 foot = contact.m_point - apart * contact.m_normal;
-            if (!isOnInnerFace(scope, targets, target, foot, contact.m_normal)) continue;
-            const Vec3& before = heldNormal[vertex];
-            const Vec3 held = norm(before) > 0 ? before : inwardAt(scope, vertex);
-            SurfaceDistance d;
-            if (!distanceFromBefore(scope, target, contact.m_point, held, d)) continue;
-            contact.m_normal = d.m_normal;
-            contact.m_gap = d.m_gap - fem.m_settings.m_contactOffset;
-        }
+        SurfaceDistance d;
+        if (&other == &target || !isSolid(*other.m_shape->m_shape) ||
+            !pointShapeDistance(*other.m_shape, foot, scope.m_advantage, d) || !(d.m_gap <= scope.m_advantage))
+            continue;
+        if (dot(d.m_normal, normal) < -kCarrierCosine) return Beside::innerFace;
+        beside = Beside::surface;
     }
+    return beside;
+}
+
+// The direction from which a point of a feature came: the mean of the normals that held its corners in the last step,
+// or of a vertex, into the body.
+Vec3 InnerFaces::heldAt(const SearchScope& scope, const Triangle& nodes, const FeatureWeights& weights) const
+{
+    const Vec3 held = interpolated(m_heldNormal, nodes, weights);
+    if (norm(held) > 0) return unit(held);
+    return nodes[1] == nodes[0] ? inwardAt(scope, nodes[0]) : Vec3();
 }
 
 }  // namespace bullet_fem

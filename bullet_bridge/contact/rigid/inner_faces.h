@@ -4,16 +4,40 @@
 
 #include <vector>
 
-#include "bullet_bridge/contact/rigid/contact_list.h"
+#include "bullet_bridge/contact/rigid/contact_target.h"
 
 namespace bullet_fem
 {
 
-/// Turns contacts of vertices that have sunk in beside the seam of two convex shapes. A vertex is nearest to the face
-/// within the seam, which is no surface of the two together: its contact is then that of a point before it, along
-/// heldNormal[vertex], by which it was held in the last step, or into the body. Vertices deeper than the contact band
-/// may have come from any side.
-void turnFromInnerFaces(const SearchScope& scope, const std::vector<ContactTarget>& targets,
-                        const std::vector<Vec3>& heldNormal, ContactList& near);
+/// Convex shapes side by side are one solid: the faces within their seam are none of its surface. A point that has sunk
+/// in, or rolls off a rim, beside a seam is nearest to such a face, or to the rim. Its distance is then that of a point
+/// before it, along the normals that held its vertices in the last step, or into the body. A view of its arguments.
+class InnerFaces
+{
+public:
+    /// `heldNormal`: per vertex, the normal of its strongest contact in the last step, or 0.
+    InnerFaces(const std::vector<ContactTarget>& targets, const std::vector<Vec3>& heldNormal)
+        : m_targets(targets), m_heldNormal(heldNormal)
+    {
+    }
+
+    /// Turns the distance of a point of a feature from a convex target. Points deeper than the contact band may have
+    /// come from any side. `d`: less the contact offset, with the point's weights on the feature's corners.
+    void turn(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes, SurfaceDistance& d) const;
+
+private:
+    enum class Beside
+    {
+        none,
+        surface,
+        innerFace
+    };
+
+    Beside besideOf(const SearchScope& scope, const ContactTarget& target, const Vec3& foot, const Vec3& normal) const;
+    Vec3 heldAt(const SearchScope& scope, const Triangle& nodes, const FeatureWeights& weights) const;
+
+    const std::vector<ContactTarget>& m_targets;
+    const std::vector<Vec3>& m_heldNormal;
+};
 
 }  // namespace bullet_fem

@@ -92,15 +92,18 @@ bool isFar(const SearchScope& scope, const ContactTarget& target, const Triangle
 }
 
 // Gap at a point of the surface; infinite if it is out of reach.
-double gapAt(const FemSoftBody& fem, const ContactTarget& target, const Triangle& nodes, const FeatureWeights& weights,
-             SurfaceDistance& d)
+double gapAt(const SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target, const Triangle& nodes,
+             const FeatureWeights& weights, SurfaceDistance& d)
 {
+    const FemSoftBody& fem = scope.fem();
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
     if (!overlaps(point, *target.m_shape, target.m_reach) ||
         !pointShapeDistance(*target.m_shape, point, target.m_reach, d))
         return kNotNear;
     d.m_barycentric = weights;
-    return d.m_gap -= fem.m_settings.m_contactOffset;
+    d.m_gap -= fem.m_settings.m_contactOffset;
+    innerFaces.turn(scope, target, nodes, d);
+    return d.m_gap;
 }
 
 // Damps the node weights of a nearest point. The nearest point to a round shape moves far while its triangle rotates
@@ -124,15 +127,16 @@ void holdBack(const SearchScope& scope, const Triangle& nodes, const ContactPoin
 
 }  // namespace
 
-void NodeSearch::find(SearchScope& scope, const ContactTarget& target, ContactList& list)
+void NodeSearch::find(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target, ContactList& list)
 {
-    findOnNodes(scope, target, list);
+    findOnNodes(scope, innerFaces, target, list);
     if (!isSolid(*target.m_shape->m_shape)) return;
-    findOnEdges(scope, target, list);
-    findOnTriangles(scope, target, list);
+    findOnEdges(scope, innerFaces, target, list);
+    findOnTriangles(scope, innerFaces, target, list);
 }
 
-void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, ContactList& list)
+void NodeSearch::findOnNodes(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target,
+                             ContactList& list)
 {
     FemSoftBody& fem = scope.fem();
     const double reach = target.m_reach;
@@ -150,13 +154,16 @@ void NodeSearch::findOnNodes(SearchScope& scope, const ContactTarget& target, Co
         const bool isKnown = pointShapeDistance(*target.m_shape, x, farthest, d);
         scope.m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
         if (!isKnown || d.m_gap > reach) continue;
-        fem.m_search.m_nodeGap[i] = d.m_gap -= fem.m_settings.m_contactOffset;
+        d.m_gap -= fem.m_settings.m_contactOffset;
+        innerFaces.turn(scope, target, {i, i, i}, d);
+        fem.m_search.m_nodeGap[i] = d.m_gap;
         fem.m_search.m_nodeNormal[i] = d.m_normal;
         list.consider(scope, target, i, {i, i, i}, d);
     }
 }
 
-void NodeSearch::findOnEdges(SearchScope& scope, const ContactTarget& target, ContactList& list)
+void NodeSearch::findOnEdges(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target,
+                             ContactList& list)
 {
     FemSoftBody& fem = scope.fem();
     const int edgeCount = fem.m_surface.topology().edgeCount();
@@ -168,15 +175,17 @@ void NodeSearch::findOnEdges(SearchScope& scope, const ContactTarget& target, Co
         const Triangle edge = {a, b, a};
         if (scope.m_culling.isOutside(edge) || areOverOneFace(fem, a, b) || isFar(scope, target, edge)) continue;
         SurfaceDistance d;
-        fem.m_search.m_edgeGap[k] = gapAt(fem, target, edge, {0.5, 0.5, 0}, d);
+        fem.m_search.m_edgeGap[k] = gapAt(scope, innerFaces, target, edge, {0.5, 0.5, 0}, d);
         if (fem.m_search.m_edgeGap[k] < kNotNear) list.consider(scope, target, firstFeature + 2 * k, edge, d);
         const double nearest =
             std::min({fem.m_search.m_edgeGap[k], fem.m_search.m_nodeGap[a], fem.m_search.m_nodeGap[b]});
-        fem.m_search.m_edgeGap[k] = considerNearest(scope, target, firstFeature + 2 * k + 1, edge, nearest, list);
+        fem.m_search.m_edgeGap[k] =
+            considerNearest(scope, innerFaces, target, firstFeature + 2 * k + 1, edge, nearest, list);
     }
 }
 
-void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target, ContactList& list)
+void NodeSearch::findOnTriangles(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target,
+                                 ContactList& list)
 {
     FemSoftBody& fem = scope.fem();
     const int triangleCount = fem.m_surface.topology().triangleCount();
@@ -190,7 +199,7 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target
             continue;
         if (isFar(scope, target, t)) continue;
         SurfaceDistance d;
-        double nearest = gapAt(fem, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
+        double nearest = gapAt(scope, innerFaces, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
         if (nearest < kNotNear) list.consider(scope, target, firstFeature + 2 * k, t, d);
         for (int a = 0; a < 3; ++a)
             nearest = std::min({nearest, fem.m_search.m_nodeGap[t[a]],
@@ -198,7 +207,7 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const ContactTarget& target
         if (isSmall && isUnderCorner(scope, target, k))
             m_underCorners.push_back(k);
         else
-            considerNearest(scope, target, firstFeature + 2 * k + 1, t, nearest, list);
+            considerNearest(scope, innerFaces, target, firstFeature + 2 * k + 1, t, nearest, list);
     }
     findOnCorners(scope, target, list);
 }
@@ -222,8 +231,8 @@ void NodeSearch::findOnCorners(const SearchScope& scope, const ContactTarget& ta
 // if it is closer than `nearest`, the gap of the known fixed points. Within the contact band it must be closer by a
 // margin, because it wanders there; the margin is smaller if the point pushed in the last step, otherwise a resting
 // object would sink by the margin and be pushed out again. Returns the smaller of the two gaps.
-double NodeSearch::considerNearest(const SearchScope& scope, const ContactTarget& target, int feature,
-                                   const Triangle& nodes, double nearest, ContactList& list)
+double NodeSearch::considerNearest(const SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target,
+                                   int feature, const Triangle& nodes, double nearest, ContactList& list)
 {
     const FemSoftBody& fem = scope.fem();
     const std::vector<Vec3>& x = fem.surfacePosition();
@@ -232,7 +241,9 @@ double NodeSearch::considerNearest(const SearchScope& scope, const ContactTarget
     SurfaceDistance d;
     if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;
-    const double gap = d.m_gap -= fem.m_settings.m_contactOffset;
+    d.m_gap -= fem.m_settings.m_contactOffset;
+    innerFaces.turn(scope, target, nodes, d);
+    const double gap = d.m_gap;
     const ContactPoint* const last = gap < scope.m_band ? pushingContact(fem, originOf(target, feature)) : nullptr;
     const double advantage = gap >= scope.m_band ? kGapRounding * scope.m_edge
                              : last              ? kHeldAdvantage * scope.m_advantage

@@ -3,13 +3,15 @@
 #pragma once
 
 #include "bullet_bridge/contact/rigid/flush_filter.h"
+#include "bullet_bridge/contact/rigid/inner_faces.h"
 
 /// Contacts of a body's surface with convex shapes on the paths within the step, which its carriers limit.
 namespace bullet_fem
 {
 
 /// Appends contacts of a fast target as the step begins: nodes only; edges and triangles are searched on their paths.
-void findTouchingNodes(SearchScope& scope, const ContactTarget& target, ContactList& near);
+void findTouchingNodes(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target,
+                       ContactList& near);
 
 /// Fast target: appends the contacts near it that are not flush, and those that the surface meets on its path.
 void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactList& near, const FlushFilter& filter,
