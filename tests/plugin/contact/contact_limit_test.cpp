@@ -36,6 +36,7 @@ TEST_P(ContactLimitOfASlab, LetsItRestWithItsWeight)
     box.m_cells = {20, 20, 1};  // 441 nodes on a side
     box.m_youngModulus = 1e6;
     box.m_center = {0, 0, thickness / 2};
+    box.m_bending = btFemBending::plain;  // docs/reliability.md, Known failures
     btSoftBody* lower = nullptr;
     if (onSoft)
     {
