@@ -13,6 +13,8 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kProgramDamping = 0.005;  // stiffness damping that a program starts from [s], as of btFemMaterial
+
 /// An allowed range of a material value: (low, high] or [low, high].
 struct ValueRange
 {
@@ -245,7 +247,7 @@ Material Material::mildFoam()
 Material withProgramDefaults(Material material)
 {
     material.m_bending = Bending::automatic;
-    if (material.m_stiffnessDamping == 0) material.m_stiffnessDamping = 0.005;
+    if (material.m_stiffnessDamping == 0) material.m_stiffnessDamping = kProgramDamping;
     return material;
 }
 
