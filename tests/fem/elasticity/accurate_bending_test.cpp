@@ -139,6 +139,36 @@ double flatPlateOverTheory(int n, int ratio, double nu)
     return middle / (1.005 * .001265 * q * length * length * length * length / D);
 }
 
+// A quarter of a ring of 10 m radius, 1 x 1 m thick, clamped at one end, with a radial load on the other: pi R / 4 (F
+// R^2 / (E I) + F / (kappa G A) + F / (E A)) by Castigliano's theorem. n cells of six elements across, `ratio` times as
+// long as thick.
+double archOverTheory(int n, int ratio, double nu)
+{
+    const double radius = 10, quarter = 2 * std::atan(1.0);
+    const int along = static_cast<int>(std::lround(radius * quarter * n / ratio));
+    const TetMesh bar = makeBox({1, 1, 1}, {along, n, n}, {0, -0.5, -0.5}, CellSplit::kuhnSix);
+    std::vector<Vec3> X = bar.restPositions();
+    const std::vector<double> area = faceAreas(bar, [](const Vec3& x) { return std::fabs(x.x - 1) < 1e-9; });
+    for (Vec3& x : X)
+        x = {(radius + x.y) * std::sin(quarter * x.x), (radius + x.y) * std::cos(quarter * x.x) - radius, x.z};
+    std::vector<Vec3> force(area.size());
+    for (std::size_t i = 0; i < area.size(); ++i) force[i].x = area[i];
+    const RestShape arch(TetMesh(X, bar.tets()), accurate(nu));
+    const auto isFixed = [&](int i, int) { return bar.restPositions()[i].x == 0; };
+    const double kappa = 10 * (1 + nu) / (12 + 11 * nu);
+    const double exact = quarter * radius / 2 *
+                         (12 * radius * radius / kBendYoung + 1 / (kappa * accurate(nu).lameMu()) + 1 / kBendYoung);
+    return weightedMean(area, displacement(arch, force, isFixed)).x / exact;
+}
+
+// Cells eight times as long as thick are segments of 15 and 23 degrees.
+TEST(ElasticityAccurateBending, ArchesBendAsCastiglianoSays)
+{
+    for (const int n : {2, 3})
+        for (const int ratio : {1, 2, 4}) EXPECT_NEAR(archOverTheory(n, ratio, .3), 1, .03) << n << ' ' << ratio;
+    EXPECT_NEAR(archOverTheory(3, 8, .3), 1, .07);
+}
+
 // Parasitic shear of plain elements grows with the square of the ratio: at 8 they have .05 and .06 of this.
 TEST(ElasticityAccurateBending, FlatCellsBendAsCubesDo)
 {
