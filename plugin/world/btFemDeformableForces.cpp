@@ -99,6 +99,7 @@ btFemForceMaterial btFemDeformableForces::materialOf(const btSoftBody& body) con
     material.m_density = 0;
     material.m_massDamping = static_cast<btScalar>(massDamping);
     material.m_stiffnessDamping = static_cast<btScalar>(viscosity / sum.m_mu);
+    material.m_bending = btFemBending::plain;  // the element of Bullet's forces
     return result;
 }
 
