@@ -10,6 +10,13 @@ namespace bullet_fem
 namespace
 {
 
+// True if the shapes keep their places to each other: parts of one object, or objects that nothing moves. Objects that
+// touch a body on two sides, as boxes that crush it, are no solid together.
+bool areOneSolid(const ContactTarget& a, const ContactTarget& b)
+{
+    return a.m_object == b.m_object || !(a.m_motion->canMove() || b.m_motion->canMove());
+}
+
 // Unit vector into the body at a vertex, or from an exposed inner node to its middle.
 Vec3 inwardAt(const SearchScope& scope, int vertex)
 {
@@ -68,8 +75,8 @@ void InnerFaces::turn(const SearchScope& scope, const ContactTarget& target, con
     d.m_normal = before.m_normal;
 }
 
-// The place of a point of a target's surface: away from other targets, on the surface of one or below it, or on a face
-// of one that looks the other way.
+// The place of a point of a target's surface: away from the rest of its solid, on the surface of a part or below it, or
+// on a face of one that looks the other way.
 InnerFaces::Beside InnerFaces::besideOf(const SearchScope& scope, const ContactTarget& target, const Vec3& foot,
                                         const Vec3& normal) const
 {
@@ -77,7 +84,7 @@ InnerFaces::Beside InnerFaces::besideOf(const SearchScope& scope, const ContactT
     for (const ContactTarget& other : m_targets)
     {
         SurfaceDistance d;
-        if (&other == &target || !isSolid(*other.m_shape->m_shape) ||
+        if (&other == &target || !areOneSolid(other, target) || !isSolid(*other.m_shape->m_shape) ||
             !pointShapeDistance(*other.m_shape, foot, scope.m_advantage, d) || !(d.m_gap <= scope.m_advantage))
             continue;
         if (dot(d.m_normal, normal) < -kCarrierCosine) return Beside::innerFace;

@@ -9,9 +9,10 @@
 namespace bullet_fem
 {
 
-/// Convex shapes side by side are one solid: the faces within their seam are none of its surface. A point that has sunk
-/// in, or rolls off a rim, beside a seam is nearest to such a face, or to the rim. Its distance is then that of a point
-/// before it, along the normals that held its vertices in the last step, or into the body. A view of its arguments.
+/// Convex shapes side by side, of one object or immovable, are one solid: faces within their seam are none of its
+/// surface. A point that has sunk in, or rolls off a rim, beside a seam is nearest to such a face, or to the rim. Its
+/// distance is then that of a point before it, along the normals that held its vertices in the last step, or into the
+/// body. A view of its arguments.
 class InnerFaces
 {
 public:
