@@ -30,6 +30,8 @@ struct ExampleBlock
 class DeformableExample : public DeformableWorldTest
 {
 protected:
+    DeformableExample() : DeformableWorldTest(withoutRebounds()) {}
+
     void setGravity(double gravity)
     {
         m_gravity = {0, -gravity, 0};

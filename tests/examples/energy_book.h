@@ -6,6 +6,7 @@
 
 #include "LinearMath/btTransform.h"
 #include "bullet_fem/btFemMaterial.h"
+#include "bullet_fem/btFemSolverInfo.h"
 #include "bullet_fem/fem/common/vec3.h"
 
 class btCollisionObject;
@@ -15,6 +16,15 @@ class btSoftBody;
 
 namespace bullet_fem
 {
+
+/// Settings of a scene with an EnergyBook: an elastic rebound returns energy that an earlier step lost, which the book
+/// would count as made.
+inline btFemSolverInfo withoutRebounds()
+{
+    btFemSolverInfo info;
+    info.m_elasticRebound = false;
+    return info;
+}
 
 /// The energy of a scene: kinetic, elastic and potential. It may grow only by the work of external forces.
 class EnergyBook

@@ -55,7 +55,7 @@ inline std::unique_ptr<btDeformableLagrangianForce> makeForce(Elastic elastic, d
 class DeformableWorldTest : public ::testing::Test
 {
 protected:
-    DeformableWorldTest() : m_world(m_solver) {}
+    explicit DeformableWorldTest(const btFemSolverInfo& info = {}) : m_solver(info), m_world(m_solver) {}
 
     // Adds a box of density kDensity with its lower face at `lowest`, as Bullet's programs do.
     btSoftBody& addBox(DeformableWorld& world, const Vec3& size, const std::array<int, 3>& cells, const Vec3& center)
