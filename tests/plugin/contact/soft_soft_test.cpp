@@ -29,6 +29,12 @@ SoftBox boxFrom(const Vec3& lowest, const Vec3& size = {1, 1, 1}, const std::arr
     return box;
 }
 
+SoftBox plain(SoftBox box)
+{
+    box.m_bending = btFemBending::plain;
+    return box;
+}
+
 struct SoftRestCase
 {
     const char* m_name;
@@ -45,9 +51,7 @@ TEST_P(SoftOnSoft, IsCarriedToItsWeightOnEveryFrame)
     btFemSoftBodySolver fem;
     SoftWorld world(fem);
     btSoftBody& lower = addSoftBox(world, fem, boxFrom({}));
-    SoftBox box = GetParam().m_upper;
-    box.m_bending = btFemBending::plain;  // a bar of one cell swings for less time
-    btSoftBody& upper = addSoftBox(world, fem, box);
+    btSoftBody& upper = addSoftBox(world, fem, plain(GetParam().m_upper));  // a bar of one cell swings for less time
     clampBelow(lower, 0.01);
     const btScalar h = GetParam().m_step;
     const double weight = massOf(upper) * kGravity;
@@ -148,8 +152,8 @@ public:
     explicit SoftIncline(double tangent)
         : m_angle(std::atan(tangent)),
           m_world(m_fem, bulletVector(Vec3{kGravity * std::sin(m_angle), 0, -kGravity * std::cos(m_angle)})),
-          m_slab(addSoftBox(m_world, m_fem, boxFrom({}, {4, 1, 0.4}, {16, 4, 2}))),
-          m_box(addSoftBox(m_world, m_fem, boxFrom({0.2, 0.23, 0.4005}, {0.5, 0.5, 0.3}, {3, 3, 2})))
+          m_slab(addSoftBox(m_world, m_fem, plain(boxFrom({}, {4, 1, 0.4}, {16, 4, 2})))),
+          m_box(addSoftBox(m_world, m_fem, plain(boxFrom({0.2, 0.23, 0.4005}, {0.5, 0.5, 0.3}, {3, 3, 2}))))
     {
         clampBelow(m_slab, 0.01);
         m_slab.m_cfg.kDF = btScalar(kSlabFriction);
@@ -186,7 +190,7 @@ TEST(SoftOnSoftIncline, SlidesAboveItWithTheLargerCoefficientOfTheTwo)
     }
     const double gained = velocityOf(scene.m_box).x - before;
     EXPECT_NEAR(gained, scene.acceleration() * steps * kStep, 0.01 * kGravity * std::sin(scene.m_angle));
-    EXPECT_NEAR(-sum.x / sum.z, kSlabFriction, 1e-3 * kSlabFriction);
+    EXPECT_NEAR(-sum.x / sum.z, kSlabFriction, 5e-4 * kSlabFriction);
 }
 
 struct SoftCollisionCase
