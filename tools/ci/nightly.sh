@@ -36,6 +36,7 @@ stage commit bash "$root/.ci/run"
 stage slow-tests "$root/tests/run.sh" -L slow
 stage compilers "$root/tools/ci/compilers.sh"
 stage threads "$root/tools/ci/threads.sh"
+stage sanitized "$root/tools/ci/sanitize.sh"
 stage python-sanitized "$root/tools/ci/sanitize.sh" --python
 stage clang-tidy "$root/tools/ci/tidy.sh"
 stage runtime "$root/tools/ci/runtime.sh"
