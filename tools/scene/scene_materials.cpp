@@ -124,11 +124,12 @@ Material defaultMaterial()
 
 SceneMaterials presetMaterials()
 {
-    return {
-        {"rubber", withProgramDefaults(Material::rubber())}, {"foam", withProgramDefaults(Material::foam())},
-        {"jelly", withProgramDefaults(Material::jelly())},   {"flesh", withProgramDefaults(Material::flesh())},
-        {"wood", withProgramDefaults(Material::wood())},     {"clay", withProgramDefaults(Material::clay())},
-        {"lead", withProgramDefaults(Material::lead())},     {"mildFoam", withProgramDefaults(Material::mildFoam())}};
+    SceneMaterials presets = {{"rubber", Material::rubber()}, {"foam", Material::foam()},
+                              {"jelly", Material::jelly()},   {"flesh", Material::flesh()},
+                              {"wood", Material::wood()},     {"clay", Material::clay()},
+                              {"lead", Material::lead()},     {"mildFoam", Material::mildFoam()}};
+    for (auto& [name, material] : presets) material = withProgramDefaults(material);
+    return presets;
 }
 
 const Material& materialCalled(const JsonCursor& at, const SceneMaterials& known)
