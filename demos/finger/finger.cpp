@@ -111,7 +111,7 @@ void play(Demo& demo, double pressure, double young, double friction)
 int main(int argc, char** argv)
 {
     Demo demo("finger", "Three pneumatic fingers bend around a ball and lift it.", 3.5);
-    double pressure = 1.8e5, young = 1e6, friction = 1.2;
+    double pressure = 1.8e5, young = 1.25e6, friction = 1.2;
     demo.option("--pressure", pressure, 0, 1e7, "gauge pressure of the air [Pa]");
     demo.option("--young", young, 1e3, 1e9, "Young's modulus of the fingers [Pa]");
     demo.option("--friction", friction, 0, 2, "friction between fingers and ball [-]");
