@@ -14,13 +14,6 @@ namespace bullet_fem
 namespace
 {
 
-// Contacts of a body with itself, and with nodes of cloth, which are no objects of `rigid`, do not rebound.
-bool isPairOf(const ImpactScene& scene, const ContactPoint& c)
-{
-    return c.m_other.m_body >= 0 ? c.m_other.m_body != c.m_soft.m_body
-                                 : c.m_rigidProxy < static_cast<int>(scene.m_rigid.rigidProxies().size());
-}
-
 // True if pins, joints or Bullet's constraints do not hold a side: the mobility of a held one is not that of its mass.
 bool isFree(const FemSoftBody& fem, int component)
 {
@@ -34,6 +27,21 @@ bool isFree(const btCollisionObject& object)
 }
 
 }  // namespace
+
+bool ImpactScene::isPair(const ContactPoint& c) const
+{
+    return c.m_other.m_body >= 0 ? c.m_other.m_body != c.m_soft.m_body
+                                 : c.m_rigidProxy < static_cast<int>(m_rigid.rigidProxies().size());
+}
+
+double ImpactScene::approachOf(const ContactPoint& c) const
+{
+    const auto velocityOf = [&](const SurfacePoint& point)
+    { return point.of(m_bodies[point.m_body]->m_body.m_state.m_v); };
+    const Vec3 other =
+        c.m_other.m_body >= 0 ? velocityOf(c.m_other) : before(c.m_rigidProxy).velocityAt(c.m_point + c.m_approach);
+    return dot(c.m_normal, other - velocityOf(c.m_soft));
+}
 
 int ImpactScene::componentOf(const SurfacePoint& point) const
 {
@@ -63,12 +71,8 @@ void ImpactPatches::findMeeting(const ImpactScene& scene, double least)
     }
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
-        if (m_isMeeting[c.m_soft.m_body] || !(dot(c.m_impulse, c.m_normal) > 0) || !isPairOf(scene, c)) continue;
-        const auto velocityOf = [&](const SurfacePoint& point)
-        { return point.of(scene.m_bodies[point.m_body]->m_body.m_state.m_v); };
-        const Vec3 other = c.m_other.m_body >= 0 ? velocityOf(c.m_other)
-                                                 : scene.before(c.m_rigidProxy).velocityAt(c.m_point + c.m_approach);
-        if (!(dot(c.m_normal, other - velocityOf(c.m_soft)) > least)) continue;
+        if (m_isMeeting[c.m_soft.m_body] || !(dot(c.m_impulse, c.m_normal) > 0) || !scene.isPair(c)) continue;
+        if (!(scene.approachOf(c) > least)) continue;
         m_isMeeting[c.m_soft.m_body] = 1;
         if (c.m_other.m_body >= 0) m_isMeeting[c.m_other.m_body] = 1;
     }
@@ -99,7 +103,7 @@ void ImpactPatches::gather(const ImpactScene& scene, double least)
     m_patches.clear();
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
-        if (!isPairOf(scene, c)) continue;
+        if (!scene.isPair(c)) continue;
         const bool isMeeting = m_isMeeting[c.m_soft.m_body] || (c.m_other.m_body >= 0 && m_isMeeting[c.m_other.m_body]);
         if (!(c.m_restitution > 0) && !isMeeting) continue;
         const ImpactPatch patch = patchOf(scene, c);
@@ -130,7 +134,7 @@ bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, 
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         const double push = dot(c.m_impulse, c.m_normal);
-        if (!(push > 0) || !isPairOf(scene, c) || !patch.isOf(patchOf(scene, c))) continue;
+        if (!(push > 0) || !scene.isPair(c) || !patch.isOf(patchOf(scene, c))) continue;
         const bool isSoft = c.m_soft.m_body == body;
         const SurfacePoint& point = isSoft ? c.m_soft : c.m_other;
         const Vec3 impulse = ((isSoft ? push : -push) / size) * c.m_normal;

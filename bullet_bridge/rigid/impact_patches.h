@@ -19,6 +19,13 @@ struct ImpactScene
     const RigidProxies& m_rigid;
     double m_step;  ///< [s]
 
+    /// True if a contact is between two bodies that may rebound: not of a body with itself, nor with nodes of cloth,
+    /// which are no objects of m_rigid.
+    bool isPair(const ContactPoint& contact) const;
+
+    /// The speed at which a contact closes as the step begins [m/s]; < 0: it opens.
+    double approachOf(const ContactPoint& contact) const;
+
     /// The connected component that a point belongs to.
     int componentOf(const SurfacePoint& point) const;
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_fem/fem/step/stress.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fem/body/internal_stress.h"
@@ -156,6 +157,26 @@ void nodeStresses(const BodyModel& model, const std::vector<Stress>& perElement,
         if (volume > 0) sum *= 1 / volume;
         perNode[i] = sum;
     }
+}
+
+double waveImpedance(const Body& body)
+{
+    const RestShape& shape = body.m_model->shape();
+    double largest = 0;
+    for (const MaterialRegion& region : shape.m_materials.m_regions)
+    {
+        double density = region.m_material.m_density;
+        if (!(density > 0))
+        {
+            double mass = 0, volume = 0;
+            for (const double m : body.m_state.m_mass) mass += m;
+            for (const RestElement& element : shape.m_elements) volume += element.m_volume;
+            density = mass / volume;
+        }
+        const ElasticMatrix C = region.m_material.stiffness();
+        largest = std::max(largest, std::sqrt(density * std::max({C(0, 0), C(1, 1), C(2, 2)})));
+    }
+    return largest;
 }
 
 }  // namespace bullet_fem

@@ -131,7 +131,11 @@ struct btFemStepReport
     int m_contacts = 0;  ///< contact points
     /// Largest speed at which a contact point still closes faster than its gap allows [m/s], >= 0.
     btScalar m_contactViolation = 0;
-    btScalar m_deepestPenetration = 0;   ///< deepest penetration at the start of the step [m], >= 0
+    btScalar m_deepestPenetration = 0;  ///< deepest penetration at the start of the step [m], >= 0
+    /// Stress of the wave that the hardest impact of the step starts [Pa], >= 0: rho c v with the speed v of approach,
+    /// v Z Z' / (Z + Z') of two soft bodies with Z = rho c; 0 without impact. Elements have less stress in steps
+    /// in which the wave crosses the body (docs/theory.md, Stress).
+    btScalar m_impactStress = 0;
     long m_factorEntries = 0;            ///< entries of the full factor, fill included
     btScalar m_factorMegabytes = 0;      ///< memory of its factor [MB, 1e6 bytes]
     btScalar m_fullFactorMegabytes = 0;  ///< memory of the full factor, whether it has it or not [MB]

@@ -105,7 +105,7 @@ template <class Bytes>
 void transfer(Bytes& bytes, btFemStepReport& r)
 {
     bytes(r.m_flags, r.m_detail, r.m_iterations, r.m_residual, r.m_contactIterations, r.m_contactSweeps, r.m_contacts,
-          r.m_contactViolation, r.m_deepestPenetration);
+          r.m_contactViolation, r.m_deepestPenetration, r.m_impactStress);
 }
 
 template <class Bytes>

@@ -223,11 +223,18 @@ bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, b
     return true;
 }
 
+// Call it after the solve, before its impulses are applied.
+void btFemContactGroup::noteImpacts()
+{
+    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
+    m_impactStresses.find({m_problem, m_bodies, m_rigid, m_step}, kRestitutionVelocity);
+}
+
 void btFemContactGroup::solve()
 {
     const btFemStopwatch watch;
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
-    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
+    noteImpacts();
     moveRigid();
     m_milliseconds += watch.milliseconds();
     report(solved);
@@ -256,7 +263,7 @@ void btFemContactGroup::solveWith(const BulletConstraints& bullet, const MultiBo
     if (links && links->m_joints.size() + links->m_contacts.size() > 0)
         m_settings.m_tolerance = std::min(m_settings.m_tolerance, kToleranceWithRows);
     const ContactReport solved = m_solver.solve(m_problem, m_settings);
-    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
+    noteImpacts();
     if (links) m_multiBodyRows.takeBack({bullet, *links, m_solverBodies.proxyOf(), m_rigid, m_problem});
     m_bulletRows.takeBack(bullet, m_problem);
     m_solverBodies.write(m_problem.m_rigidProxies);
@@ -295,7 +302,7 @@ void btFemContactGroup::finish()
 {
     ContactReport solved;
     onSolverBodies([&] { solved = m_solver.finish(); });
-    m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
+    noteImpacts();
     m_solverBodies.end(m_rigid);
     report(solved);
 }

@@ -35,6 +35,8 @@ void bindReports(py::module_& module)
         .def_readonly("residual", &Report::m_residual, "Relative residual of the free motion [-].")
         .def_readonly("contacts", &Report::m_contacts, "Number of contact points.")
         .def_readonly("deepest_penetration", &Report::m_deepestPenetration, "At the start of the step [m].")
+        .def_readonly("impact_stress", &Report::m_impactStress,
+                      "Stress of the wave that the hardest impact of the step starts [Pa]; 0 without impact.")
         .def_readonly("factor_megabytes", &Report::m_factorMegabytes, "Memory of the factor [MB].")
         .def_readonly("factor_seconds", &Report::m_factorSeconds, "Wall time of the factorization [s].")
         .def_readonly("free_motion_ms", &Report::m_freeMotionMs, "Wall time of the free motion [ms].")

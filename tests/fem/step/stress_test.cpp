@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "fem/scenes/elasticity_scenes.h"
@@ -207,6 +208,28 @@ TEST(Stress, NodeStressIsTheVolumeWeightedMean)
     EXPECT_DOUBLE_EQ(perNode[3].xx, 3);
     EXPECT_DOUBLE_EQ(perNode[4].yz, 3);
     EXPECT_EQ(vonMises(perNode[5]), 0);
+}
+
+// rho c with c = sqrt((lambda + 2 mu) / rho), of the hardest region; without a density that of the body's mass.
+TEST(WaveImpedance, IsThatOfPressureWaves)
+{
+    const double stiffness = kLambda + 2 * kMu;
+    Body body = oneElement();
+    const double density = body.m_model->shape().m_material.m_density;
+    EXPECT_NEAR(waveImpedance(body), std::sqrt(density * stiffness), 1e-9 * stiffness);
+
+    Material weightless = elasticMaterial(kYoung, kPoisson);
+    weightless.m_density = 0;
+    body = makeBody(body.m_model->mesh(), weightless);
+    for (double& mass : body.m_state.m_mass) mass = 50 * body.m_model->shape().m_elements[0].m_volume;
+    EXPECT_NEAR(waveImpedance(body), std::sqrt(200 * stiffness), 1e-9 * stiffness);
+
+    Material wood = elasticMaterial(kYoung, kPoisson);
+    wood.m_density = 500;
+    wood.m_law = ElasticLaw::orthotropic;
+    wood.m_orthotropic = Orthotropic::transverselyIsotropic(1e9, 1e8, 0, 0, 1e8);
+    body = makeBody(body.m_model->mesh(), wood);
+    EXPECT_NEAR(waveImpedance(body), std::sqrt(500 * 1e9), 1e-3);
 }
 
 TEST(Stress, DoesNotAllocateOnceItHasGrown)

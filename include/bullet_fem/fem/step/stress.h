@@ -36,4 +36,10 @@ BULLETFEM_API void elementStresses(const Body& body, std::vector<Stress>& perEle
 BULLETFEM_API void nodeStresses(const BodyModel& model, const std::vector<Stress>& perElement,
                                 std::vector<Stress>& perNode);
 
+/// Impedance rho c of pressure waves [Pa s/m], c = sqrt(C / rho) with the largest of C_11, C_22, C_33 at small strain
+/// in the axes of the rest shape; the largest of the body's regions. rho is a region's density, or the body's mass over
+/// its volume if that is 0. A body that meets an obstacle at speed v is first stressed by rho c v there [Kolsky 1953].
+/// Never allocates.
+BULLETFEM_API double waveImpedance(const Body& body);
+
 }  // namespace bullet_fem
