@@ -83,6 +83,8 @@ struct Impact
     int m_component = 0;         ///< connected component of the body (TetMesh::nodeComponent)
     int m_otherComponent = -1;   ///< connected component of a soft other body; -1: rigid
     double m_restitution = 0;    ///< [-], in [0, 1]
+    double m_passedOn = 0;       ///< separation speed that other patches add [m/s]
+    int m_group = 0;             ///< number in common of impacts at once; 0: alone
     double m_push = 0;           ///< normal impulse of the step that m_restitution was found in [N s]
     Vec3 m_velocity;             ///< of the body relative to the other at the first contact, before it [m/s]
     double m_energy = 0;         ///< energy of both at the first contact [J]

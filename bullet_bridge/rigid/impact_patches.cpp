@@ -7,26 +7,9 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
-#include "bullet_fem/fem/contact/rebound.h"
 
 namespace bullet_fem
 {
-namespace
-{
-
-// True if pins, joints or Bullet's constraints do not hold a side: the mobility of a held one is not that of its mass.
-bool isFree(const FemSoftBody& fem, int component)
-{
-    return fem.m_joints.m_now.empty() && wholeMotion(fem.m_body, component).canMove();
-}
-
-bool isFree(const btCollisionObject& object)
-{
-    const btRigidBody* body = movableBody(object);
-    return !body || body->getNumConstraintRefs() == 0;
-}
-
-}  // namespace
 
 bool ImpactScene::isPair(const ContactPoint& c) const
 {
@@ -101,11 +84,11 @@ void ImpactPatches::gather(const ImpactScene& scene, double least)
 {
     findMeeting(scene, least);
     m_patches.clear();
+    const bool anyMeets = std::find(m_isMeeting.begin(), m_isMeeting.end(), 1) != m_isMeeting.end();
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         if (!scene.isPair(c)) continue;
-        const bool isMeeting = m_isMeeting[c.m_soft.m_body] || (c.m_other.m_body >= 0 && m_isMeeting[c.m_other.m_body]);
-        if (!(c.m_restitution > 0) && !isMeeting) continue;
+        if (!(c.m_restitution > 0) && !anyMeets) continue;
         const ImpactPatch patch = patchOf(scene, c);
         const Vec3 normal = patch.m_body == c.m_soft.m_body ? c.m_normal : -c.m_normal;
         auto found =
@@ -125,8 +108,7 @@ void ImpactPatches::gather(const ImpactScene& scene, double least)
 }
 
 // Adds the response of a soft side. False if its elasticity is not known.
-bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, bool isHeld,
-                            PatchResponse& response)
+bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, PatchResponse& response)
 {
     Body& soft = scene.m_bodies[body]->m_body;
     const double size = norm(patch.m_normal);
@@ -140,32 +122,13 @@ bool ImpactPatches::addSide(const ImpactScene& scene, const ImpactPatch& patch, 
         const Vec3 impulse = ((isSoft ? push : -push) / size) * c.m_normal;
         for (int k = 0; k < point.m_count; ++k) m_impulses[point.m_nodes[k]] += point.m_weights[k] * impulse;
     }
-    if (!isHeld) response.m_rigid += rigidMobility(soft, m_impulses);
     return addVibrations(soft, m_impulses, response);
 }
 
-double ImpactPatches::elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact)
+bool ImpactPatches::addResponse(const ImpactScene& scene, const ImpactPatch& patch, PatchResponse& response)
 {
-    const FemSoftBody* soft = patch.m_otherBody >= 0 ? scene.m_bodies[patch.m_otherBody] : nullptr;
-    if (!isFree(*scene.m_bodies[patch.m_body], patch.m_component)) return 0;
-    if (soft ? !isFree(*soft, patch.m_otherComponent) : !isFree(*impact.m_other)) return 0;
-    PatchResponse response;
-    const Vec3& n = impact.m_normal;
-    double acceleration = 0;
-    if (!addSide(scene, patch, patch.m_body, impact.m_isHeld, response)) return 0;
-    if (!impact.m_isHeld) acceleration -= dot(n, scene.m_bodies[patch.m_body]->gravity());
-    if (soft)
-    {
-        if (!addSide(scene, patch, patch.m_otherBody, impact.m_otherIsHeld, response)) return 0;
-        if (!impact.m_otherIsHeld) acceleration += dot(n, soft->gravity());
-    }
-    else if (!impact.m_otherIsHeld)
-    {
-        response.m_rigid += rigidMobility(scene.m_problem, patch.m_rigidProxy, impact.m_point, n);
-        const btRigidBody* rigid = movableBody(*impact.m_other);
-        if (rigid) acceleration += dot(n, vec3(rigid->getGravity()));
-    }
-    return elasticRestitution(response, approachOf(impact), acceleration);
+    return addSide(scene, patch, patch.m_body, response) &&
+           (patch.m_otherBody < 0 || addSide(scene, patch, patch.m_otherBody, response));
 }
 
 }  // namespace bullet_fem

@@ -54,27 +54,26 @@ struct ImpactPatch
 class ImpactPatches
 {
 public:
+    static constexpr int kUsualPatches = 64;  ///< more allocate memory, once
+
     /// `isElastic`: bodies without a coefficient of restitution rebound, too.
     explicit ImpactPatches(bool isElastic) : m_isElastic(isElastic) { m_patches.reserve(kUsualPatches); }
 
     bool isElastic() const { return m_isElastic; }
 
-    /// Collects the patches. Bodies meet at speed if they have impacts, or a pressed point approaches the other side
-    /// faster than `least` [m/s].
+    /// Collects the patches: if any bodies meet at speed, all. Bodies meet at speed if they have impacts, or a pressed
+    /// point approaches the other side faster than `least` [m/s].
     void gather(const ImpactScene& scene, double least);
 
     const std::vector<ImpactPatch>& patches() const { return m_patches; }
 
-    /// The coefficient of restitution of an impact's bodies by their elasticity [-]: see elasticRestitution(). 0 if
-    /// pins, joints or Bullet's constraints hold a side.
-    double elasticRestitutionOf(const ImpactScene& scene, const ImpactPatch& patch, const Impact& impact);
+    /// Adds the elastic response of both sides of a patch. False if it is not known.
+    bool addResponse(const ImpactScene& scene, const ImpactPatch& patch, PatchResponse& response);
 
 private:
-    static constexpr int kUsualPatches = 64;  // more allocate memory, once
-
     static ImpactPatch patchOf(const ImpactScene& scene, const ContactPoint& contact);
     void findMeeting(const ImpactScene& scene, double least);
-    bool addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, bool isHeld, PatchResponse& response);
+    bool addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, PatchResponse& response);
 
     const bool m_isElastic;
     std::vector<ImpactPatch> m_patches;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bullet_bridge/body/fem_soft_body.h"
-#include "bullet_bridge/rigid/impact_patches.h"
+#include "bullet_bridge/rigid/impact_groups.h"
 #include "bullet_bridge/rigid/world_objects.h"
 
 namespace bullet_fem
@@ -31,8 +31,8 @@ struct GivenRebound
 /// Restitution. The contact solve itself has none, and the step damps the elastic rebound of bodies. When contact no
 /// longer drives two colliding bodies apart, and they separate more slowly than the coefficient of restitution demands,
 /// the one that is set or that of their elasticity, one impulse on both adds the missing speed, with at most the energy
-/// that the contact has lost. Speeds are those of the bodies' rigid motions at the centre of the contact patch. State
-/// is kept in ContactMemory::m_impacts.
+/// that the contact has lost. Free bodies that touch get those of all their patches at once. Speeds are those of the
+/// bodies' rigid motions at the centre of the contact patch. State is kept in ContactMemory::m_impacts.
 class Rebounds
 {
 public:
@@ -55,40 +55,53 @@ public:
 private:
     static constexpr int kUsualRebounds = 16;  // in a step; more allocate memory, once
 
-    // The other side of an impact, if it still exists.
-    struct Other
+    // An impact that is not over, with the rigid proxies of its sides.
+    struct Live
     {
-        FemSoftBody* m_soft = nullptr;
-        const btCollisionObject* m_rigid = nullptr;
-    };
+        FemSoftBody* m_fem;
+        Impact* m_impact;
+        FemSoftBody* m_otherSoft = nullptr;
+        const btCollisionObject* m_otherRigid = nullptr;
+        int m_first = -1, m_second = -1;  // proxies; a held side has one of its own
+        bool m_isReady = false;           // contact no longer drives the two apart
+        bool m_isOver = false;
 
-    // The rigid motions of both sides as the step begins.
-    struct Sides
-    {
-        RigidProxy m_first, m_second;
-
-        double approachAt(const Impact& impact) const
+        bool hasOther() const { return m_otherSoft || m_otherRigid; }
+        ImpactSide side() const { return {m_fem, m_impact->m_component, nullptr}; }
+        ImpactSide otherSide() const
         {
-            return dot(impact.m_normal, m_second.velocityAt(impact.m_point) - m_first.velocityAt(impact.m_point));
+            return m_otherSoft ? ImpactSide{m_otherSoft, m_impact->m_otherComponent, nullptr}
+                               : ImpactSide{nullptr, -1, m_otherRigid};
         }
     };
 
-    static Sides sidesOf(const ImpactScene& scene, const ImpactPatch& patch);
-    void notePatch(const ImpactScene& scene, const ImpactPatch& patch, double least);
-    void findRestitution(const ImpactScene& scene, const ImpactPatch& patch, Impact& impact);
+    void notePatch(const ImpactScene& scene, std::size_t k, double least);
     static bool meet(const ImpactScene& scene, const ImpactPatch& patch, double least, Impact& impact);
-    static const RigidProxy* supportOf(const ImpactScene& scene, int body, int component, const Vec3& against);
-    static const RigidProxy* supportOf(const ImpactScene& scene, int rigidProxy, const Vec3& against);
-    Other otherOf(const FemSoftBody& fem, const Impact& impact, const std::vector<FemSoftBody*>& bodies,
-                  WorldObjects& world) const;
-    Vec3 patchVelocity() const;
-    void turnNormal(Impact& impact, double step) const;
-    bool follow(FemSoftBody& fem, Impact& impact, const Other& other, RigidProxies& rigid, double step);
-    void setPair(const FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step);
-    bool part(FemSoftBody& fem, const Impact& impact, const Other& other, RigidProxies& rigid, double step);
+    void findOther(Live& live, const std::vector<FemSoftBody*>& bodies, WorldObjects& world) const;
+    void listLive(const std::vector<FemSoftBody*>& bodies, WorldObjects& world);
+    void setProxies(double step);
+    int proxyOf(const ImpactSide& side) const;
+    Vec3 patchVelocity(const Live& live) const;
+    void turnNormal(const Live& live, double step) const;
+    void follow(Live& live, double step) const;
+    void partGroup(std::size_t first);
+    double energyFor(const Live& live) const;
+    double energyForGroup(const std::vector<Live*>& parting);
+    bool part(const std::vector<Live*>& parting);
+    void move(const std::vector<Live*>& parting);
 
     ImpactPatches m_patches;
-    ContactProblem m_problem;  // of both sides: the other, then the body
+    ImpactGroups m_groups;
+    RigidProxies* m_rigid = nullptr;
+    std::vector<Live> m_live;
+    std::vector<Live*> m_parting;
+    std::vector<ImpactSide> m_sides;
+    std::vector<int> m_proxyOf;  // of the sides
+    ContactProblem m_problem;    // rigid objects, soft components, sides that are held
+    std::vector<RigidProxy> m_before;
+    std::vector<Rebound> m_rebounds;
+    ReboundSystem m_system;
+    std::vector<int> m_pressed;  // proxies
     std::vector<GivenRebound> m_given;
 };
 

@@ -84,6 +84,9 @@ void checkPoint(const ContactPoint& c, const FemSoftBody& soft, const FemSoftBod
               c.m_approach, c.m_normal, c.m_impulse, c.m_slip);
 }
 
+// More impacts at once fit into no memory.
+constexpr int kMaxImpactGroup = 1000000000;
+
 // `other` is null for a rigid object, or a body that has left the world.
 void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* other)
 {
@@ -98,10 +101,12 @@ void checkImpact(const Impact& i, const FemSoftBody& fem, const FemSoftBody* oth
         checkComponent(i.m_otherComponent, 0, *other);
     else if (i.m_otherComponent < -1)
         reject("the other component of an impact is ", i.m_otherComponent, ", below -1");
-    checkSane("an impact", i.m_push, i.m_velocity, i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point, i.m_normal,
-              i.m_frame, i.m_time, i.m_stopTime);
+    checkSane("an impact", i.m_passedOn, i.m_push, i.m_velocity, i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point,
+              i.m_normal, i.m_frame, i.m_time, i.m_stopTime);
     if (!(i.m_restitution >= 0 && i.m_restitution <= 1))
         reject("the restitution of an impact is ", i.m_restitution, ", not in [0, 1]");
+    if (!(i.m_group >= 0 && i.m_group < kMaxImpactGroup))
+        reject("the group of an impact is ", i.m_group, ", not in [0, ", kMaxImpactGroup, ")");
     if (!isOne(norm(i.m_normal))) reject("the normal of an impact has length ", norm(i.m_normal), ", not 1");
 }
 

@@ -106,9 +106,9 @@ template <class Bytes>
 void transfer(Bytes& bytes, ImpactSnapshot& s)
 {
     Impact& i = s.m_impact;
-    bytes(s.m_other, i.m_otherId, i.m_component, i.m_otherComponent, i.m_restitution, i.m_push, i.m_velocity,
-          i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point, i.m_normal, i.m_frame, i.m_time, i.m_stopTime,
-          i.m_isHeld, i.m_otherIsHeld);
+    bytes(s.m_other, i.m_otherId, i.m_component, i.m_otherComponent, i.m_restitution, i.m_passedOn, i.m_group, i.m_push,
+          i.m_velocity, i.m_energy, i.m_loss, i.m_speed, i.m_gain, i.m_point, i.m_normal, i.m_frame, i.m_time,
+          i.m_stopTime, i.m_isHeld, i.m_otherIsHeld);
 }
 
 template <class Bytes>

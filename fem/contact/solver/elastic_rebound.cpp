@@ -26,6 +26,11 @@ constexpr int kJacobiSweeps = 12;
 // periods after which bodies still in contact rest on each other; half periods without contact until they have parted.
 constexpr int kSteps = 400, kLongest = 20, kParted = 2;
 
+// Of several patches: largest ratio of half periods that steps resolve, sweeps over the patches of a step at most, and
+// the change of an impulse as a share of the largest that ends them [-].
+constexpr int kMaxRatio = 4, kPatchSweeps = 50;
+constexpr double kPatchError = 1e-6;
+
 // A symmetric tridiagonal matrix.
 struct Tridiagonal
 {
@@ -116,51 +121,117 @@ Tridiagonal lanczos(Body& body, std::vector<Vec3>& q)
     return T;
 }
 
-// The patch of two bodies that meet, in steps of implicit Euler.
-class PatchImpact
+// Patches of bodies that meet, in steps of implicit Euler.
+class PatchImpacts
 {
 public:
-    PatchImpact(const PatchResponse& response, double step) : m_response(response), m_step(step)
+    PatchImpacts(const MeetingPatches& patches, double step)
+        : m_patches(patches), m_count(patches.m_responses.size()), m_step(step)
     {
-        m_mobility = response.m_rigid;
-        for (int k = 0; k < response.m_count; ++k)
+        for (std::size_t p = 0; p < m_count; ++p)
         {
-            const PatchResponse::Vibration& of = response.m_vibrations[k];
-            m_share[k] = 1 / (1 + step * of.m_frequency * (of.m_damping + step));
-            m_mobility += of.m_mobility * m_share[k];
+            Patch& patch = m_state[p];
+            patch.m_closing = patches.m_speed[p];
+            const PatchResponse& response = patches.m_responses[p];
+            for (int k = 0; k < response.m_count; ++k)
+            {
+                const PatchResponse::Vibration& of = response.m_vibrations[k];
+                patch.m_share[k] = 1 / (1 + step * of.m_frequency * (of.m_damping + step));
+                patch.m_mobility += of.m_mobility * patch.m_share[k];
+            }
         }
     }
 
-    // Steps on; returns whether the two press each other.
-    bool advance(double acceleration)
+    // Steps on; returns the number of patches that press.
+    int advance()
     {
-        m_closing += m_step * acceleration;
-        double overlap = m_approach + m_step * m_closing;
-        for (int k = 0; k < m_response.m_count; ++k)
+        for (std::size_t p = 0; p < m_count; ++p) predict(p);
+        solve();
+        int pressed = 0;
+        for (std::size_t p = 0; p < m_count; ++p)
         {
-            m_v[k] = m_share[k] * (m_v[k] - m_step * m_response.m_vibrations[k].m_frequency * m_z[k]);
-            overlap -= m_z[k] + m_step * m_v[k];
+            Patch& patch = m_state[p];
+            for (std::size_t q = 0; q < m_count; ++q) patch.m_closing -= compliance(p, q) * m_state[q].m_impulse;
+            patch.m_approach += m_step * patch.m_closing;
+            const PatchResponse& response = m_patches.m_responses[p];
+            for (int k = 0; k < response.m_count; ++k)
+            {
+                patch.m_v[k] += patch.m_share[k] * response.m_vibrations[k].m_mobility * patch.m_impulse;
+                patch.m_z[k] += m_step * patch.m_v[k];
+            }
+            if (patch.m_impulse > 0) ++pressed;
         }
-        const double impulse = std::max(overlap / (m_step * m_mobility), 0.0);
-        m_closing -= m_response.m_rigid * impulse;
-        m_approach += m_step * m_closing;
-        for (int k = 0; k < m_response.m_count; ++k)
-        {
-            m_v[k] += m_share[k] * m_response.m_vibrations[k].m_mobility * impulse;
-            m_z[k] += m_step * m_v[k];
-        }
-        return impulse > 0;
+        return pressed;
     }
 
-    double m_closing = 0;  // approach speed of the rigid motions [m/s]
+    double closing(std::size_t p) const { return m_state[p].m_closing; }
 
 private:
-    const PatchResponse& m_response;
-    const double m_step;    // [s]
-    double m_mobility = 0;  // within a step [1/kg]
-    double m_approach = 0;  // of the rigid motions since they met [m]
-    std::array<double, 2 *kVibrations> m_share = {}, m_z = {}, m_v = {};
+    struct Patch
+    {
+        double m_closing = 0;   // approach speed of the rigid motions [m/s]
+        double m_approach = 0;  // of the rigid motions since they met [m]
+        double m_mobility = 0;  // of the vibrations within a step [1/kg]
+        double m_overlap = 0;   // without an impulse, over the step [m/s]
+        double m_impulse = 0;   // [N s]
+        std::array<double, 2 *kVibrations> m_share = {}, m_z = {}, m_v = {};
+    };
+
+    double compliance(std::size_t p, std::size_t q) const { return m_patches.m_compliance[p * m_count + q]; }
+
+    void predict(std::size_t p)
+    {
+        Patch& patch = m_state[p];
+        const PatchResponse& response = m_patches.m_responses[p];
+        patch.m_closing += m_step * m_patches.m_acceleration[p];
+        double overlap = patch.m_approach + m_step * patch.m_closing;
+        for (int k = 0; k < response.m_count; ++k)
+        {
+            patch.m_v[k] =
+                patch.m_share[k] * (patch.m_v[k] - m_step * response.m_vibrations[k].m_frequency * patch.m_z[k]);
+            overlap -= patch.m_z[k] + m_step * patch.m_v[k];
+        }
+        patch.m_overlap = overlap / m_step;
+    }
+
+    // Projected Gauss-Seidel from the impulses of the last step.
+    void solve()
+    {
+        for (int sweep = 0; sweep < kPatchSweeps; ++sweep)
+        {
+            double change = 0, most = 0;
+            for (std::size_t p = 0; p < m_count; ++p)
+            {
+                const double mobility = compliance(p, p) + m_state[p].m_mobility;
+                double overlap = m_state[p].m_overlap;
+                for (std::size_t q = 0; q < m_count; ++q)
+                    if (q != p) overlap -= compliance(p, q) * m_state[q].m_impulse;
+                const double impulse = std::max(overlap / mobility, 0.0);
+                change = std::max(change, std::abs(impulse - m_state[p].m_impulse));
+                most = std::max(most, impulse);
+                m_state[p].m_impulse = impulse;
+            }
+            if (m_count == 1 || !(change > kPatchError * most)) return;
+        }
+    }
+
+    const MeetingPatches& m_patches;
+    const std::size_t m_count;
+    const double m_step;  // [s]
+    std::array<Patch, MeetingPatches::kMaxCount> m_state;
 };
+
+// Half a period of a patch's contact; 0: it has none [s].
+double halfPeriodOf(const MeetingPatches& patches, std::size_t p)
+{
+    constexpr double kPi = 3.14159265358979323846;
+    const PatchResponse& response = patches.m_responses[p];
+    double softness = 0;
+    for (int k = 0; k < response.m_count; ++k)
+        softness += response.m_vibrations[k].m_mobility / response.m_vibrations[k].m_frequency;
+    const double rigid = patches.m_compliance[p * patches.m_responses.size() + p];
+    return softness > 0 && rigid > 0 ? kPi * std::sqrt(softness / rigid) : 0;
+}
 
 }  // namespace
 
@@ -191,34 +262,37 @@ bool addVibrations(Body& body, const std::vector<Vec3>& impulses, PatchResponse&
     return true;
 }
 
-double rigidMobility(Body& body, const std::vector<Vec3>& impulses)
+bool findPartingSpeeds(const MeetingPatches& patches, std::vector<double>& parting)
 {
-    StepScratch& scratch = body.m_workspace.scratch();
-    std::vector<Vec3>& change = scratch.m_increment;
-    std::fill(change.begin(), change.end(), Vec3());
-    scratch.m_momentum.addResponse(body, impulses, change);
-    double sum = 0;
-    for (std::size_t i = 0; i < impulses.size(); ++i) sum += dot(impulses[i], change[i]);
-    return sum;
-}
-
-double elasticRestitution(const PatchResponse& response, double speed, double acceleration)
-{
-    double softness = 0;
-    for (int k = 0; k < response.m_count; ++k)
-        softness += response.m_vibrations[k].m_mobility / response.m_vibrations[k].m_frequency;
-    if (!(softness > 0) || !(response.m_rigid > 0)) return 0;
-    constexpr double kPi = 3.14159265358979323846;
-    PatchImpact impact(response, kPi * std::sqrt(softness / response.m_rigid) / kSteps);
-    impact.m_closing = speed;
-    double parting = 0;
-    for (int step = 0, open = 0; step < kLongest * kSteps && open <= kParted * kSteps; ++step)
+    const std::size_t count = patches.m_responses.size();
+    double shortest = 0, longest = 0;
+    for (std::size_t p = 0; p < count; ++p)
     {
-        open = impact.advance(acceleration) ? 0 : open + 1;
-        if (open == 0) parting = -impact.m_closing;
-        if (open > kParted * kSteps) return std::min(std::max(parting / speed, 0.0), 1.0);
+        const double half = halfPeriodOf(patches, p);
+        if (!(half > 0)) return false;
+        shortest = p == 0 ? half : std::min(shortest, half);
+        longest = std::max(longest, half);
     }
-    return 0;
+    const double step = std::max(shortest, longest / kMaxRatio) / kSteps;
+    const int half = static_cast<int>(std::ceil(longest / step));
+    PatchImpacts impacts(patches, step);
+    int before = 0, open = 0;
+    bool isParted = false;
+    // Waves pass from patch to patch in half a period.
+    const int last = (count > 1 ? kParted + static_cast<int>(count) : kLongest) * half;
+    for (int k = 0; k < last && open <= kParted * half; ++k)
+    {
+        const int pressed = impacts.advance();
+        if (pressed < before || (count == 1 && pressed > 0))
+        {
+            isParted = true;
+            parting.resize(count);
+            for (std::size_t p = 0; p < count; ++p) parting[p] = -impacts.closing(p);
+        }
+        before = pressed;
+        open = pressed > 0 ? 0 : open + 1;
+    }
+    return isParted && (count > 1 || open > kParted * half);
 }
 
 }  // namespace bullet_fem

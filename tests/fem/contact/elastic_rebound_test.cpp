@@ -17,14 +17,21 @@ namespace
 
 const double kPi = std::acos(-1);
 
+constexpr double kMobility = 0.5;  // of a mass of 2 kg [1/kg]
+
+// Separation over approach speed of one patch; 0: the two do not separate.
+double elasticRestitution(const PatchResponse& response, double mobility, double speed, double acceleration)
+{
+    std::vector<double> parting;
+    return findPartingSpeeds({{response}, {mobility}, {speed}, {acceleration}}, parting) ? parting[0] / speed : 0;
+}
+
 // A mass of 2 kg on a spring and a damper without mass.
 PatchResponse springOf(double frequency, double dampingRatio)
 {
     constexpr double kLight = 1e6;  // mobility of the spring's end over that of the mass [-]
     PatchResponse response;
-    response.m_rigid = 0.5;
-    response.m_vibrations[0] = {kLight * response.m_rigid, kLight * frequency * frequency,
-                                2 * dampingRatio / frequency};
+    response.m_vibrations[0] = {kLight * kMobility, kLight * frequency * frequency, 2 * dampingRatio / frequency};
     response.m_count = 1;
     return response;
 }
@@ -37,7 +44,7 @@ TEST(ElasticRestitution, IsThatOfADampedSpring)
         const double damped = std::sqrt(1 - ratio * ratio);
         const double expected = std::exp(-ratio / damped * std::atan2(2 * ratio * damped, 2 * ratio * ratio - 1));
         for (const double frequency : {10.0, 1000.0})
-            EXPECT_NEAR(elasticRestitution(springOf(frequency, ratio), 1, 0), expected, 0.02) << ratio;
+            EXPECT_NEAR(elasticRestitution(springOf(frequency, ratio), kMobility, 1, 0), expected, 0.02) << ratio;
     }
 }
 
@@ -46,9 +53,48 @@ TEST(ElasticRestitution, IsZeroForBodiesThatDoNotLeave)
 {
     constexpr double kFrequency = 20, kWeight = 9.81;  // [rad/s], [m/s2]
     const double slow = 0.1 * kWeight / kFrequency;
-    EXPECT_EQ(elasticRestitution(springOf(kFrequency, 0.3), slow, kWeight), 0);
-    EXPECT_GT(elasticRestitution(springOf(kFrequency, 0), 100 * slow, kWeight), 0.9);
-    EXPECT_EQ(elasticRestitution(PatchResponse(), 1, 0), 0);
+    EXPECT_EQ(elasticRestitution(springOf(kFrequency, 0.3), kMobility, slow, kWeight), 0);
+    EXPECT_GT(elasticRestitution(springOf(kFrequency, 0), kMobility, 100 * slow, kWeight), 0.9);
+    EXPECT_EQ(elasticRestitution(PatchResponse(), kMobility, 1, 0), 0);
+}
+
+// Equal masses in a row, with equal springs between them, of which one comes with a speed of 1: the last takes nearly
+// all of it, and none of the energy is lost. Of three masses the speeds are -.129, .148 and .981.
+TEST(ElasticRestitution, PassesThroughARow)
+{
+    for (const std::size_t masses : {std::size_t(3), std::size_t(5)})
+    {
+        const std::size_t patches = masses - 1;
+        MeetingPatches row;
+        row.m_responses.assign(patches, springOf(100, 0));
+        row.m_speed.assign(patches, 0);
+        row.m_speed[0] = 1;
+        row.m_acceleration.assign(patches, 0);
+        row.m_compliance.assign(patches * patches, 0);
+        for (std::size_t p = 0; p < patches; ++p)
+        {
+            row.m_compliance[p * patches + p] = 2 * kMobility;
+            if (p > 0) row.m_compliance[p * patches + p - 1] = row.m_compliance[(p - 1) * patches + p] = -kMobility;
+        }
+        std::vector<double> parting;
+        ASSERT_TRUE(findPartingSpeeds(row, parting));
+        std::vector<double> v(masses, 0);
+        for (std::size_t p = 0; p < patches; ++p)
+            for (std::size_t k = 0; k < masses; ++k)
+                v[k] += parting[p] * (double(p + 1) / double(masses) - (k <= p ? 1 : 0));
+        double energy = 0;
+        for (double& speed : v)
+        {
+            speed += 1 / double(masses);
+            energy += speed * speed;
+        }
+        EXPECT_NEAR(energy, 1, 0.05);
+        EXPECT_GT(v.back(), 0.9);
+        if (masses == 3)
+        {
+            EXPECT_NEAR(v.back(), 0.981, 0.02);
+        }
+    }
 }
 
 // A bar that is struck on its end face.
@@ -91,7 +137,6 @@ protected:
 TEST_F(StruckBar, HasLongitudinalVibrations)
 {
     ASSERT_TRUE(addVibrations(m_body, m_impulses, m_response));
-    EXPECT_NEAR(rigidMobility(m_body, m_impulses), 1 / m_mass, 1e-6 / m_mass);
     const PatchResponse::Vibration* lowest = &m_response.m_vibrations[0];
     double all = 0;
     for (int k = 0; k < m_response.m_count; ++k)
@@ -113,9 +158,8 @@ TEST_F(StruckBar, HasLongitudinalVibrations)
 // bars.
 TEST_F(StruckBar, ReturnsItsSpeed)
 {
-    m_response.m_rigid = rigidMobility(m_body, m_impulses);
     ASSERT_TRUE(addVibrations(m_body, m_impulses, m_response));
-    EXPECT_GT(elasticRestitution(m_response, 1, 0), 0.9);
+    EXPECT_GT(elasticRestitution(m_response, 1 / m_mass, 1, 0), 0.9);
 }
 
 // The response of a turned body is turned.

@@ -35,50 +35,78 @@ protected:
     ReboundTest()
     {
         m_problem.m_rigidProxies = {freeSphere(2, {0, 0.3, 1}, {0.1, 0, 0.5}), freeSphere(5, {0, 0, -1}, {0, 0, 0.4})};
+        m_rebounds.resize(1);
+        Rebound& m_rebound = m_rebounds[0];
         m_rebound.m_first = 0;
         m_rebound.m_second = 1;
         m_rebound.m_normal = {0, 0, 1};
         m_rebound.m_speed = 3;
-        m_rebound.m_energy = 1e3;
+    }
+
+    bool give(double energy)
+    {
+        m_system.set(m_problem, m_rebounds);
+        return m_system.give(m_problem, m_rebounds, energy);
     }
 
     double energy() const
     {
-        return energyOfSphere(m_problem.m_rigidProxies[0]) + energyOfSphere(m_problem.m_rigidProxies[1]);
+        double sum = 0;
+        for (const RigidProxy& proxy : m_problem.m_rigidProxies) sum += energyOfSphere(proxy);
+        return sum;
     }
 
-    double speed() const
-    {
-        return dot(m_rebound.m_normal, m_problem.m_rigidProxies[0].velocityAt(m_rebound.m_point) -
-                                           m_problem.m_rigidProxies[1].velocityAt(m_rebound.m_point));
-    }
+    double speed(std::size_t k = 0) const { return separationSpeed(m_problem, m_rebounds[k]); }
 
     ContactProblem m_problem;
-    Rebound m_rebound;
+    std::vector<Rebound> m_rebounds;
+    ReboundSystem m_system;
 };
 
 TEST_F(ReboundTest, PartsAtTheSpeedWanted)
 {
-    EXPECT_GT(giveRebound(m_problem, m_rebound).z, 0);
+    EXPECT_TRUE(give(1e3));
+    EXPECT_GT(m_rebounds[0].m_impulse, 0);
     EXPECT_NEAR(speed(), 3, 1e-12);
 }
 
 TEST_F(ReboundTest, GivesNoMoreThanTheAvailableEnergy)
 {
-    m_rebound.m_energy = 0.7;
     const double before = energy();
-    giveRebound(m_problem, m_rebound);
+    EXPECT_TRUE(give(0.7));
     EXPECT_NEAR(energy(), before + 0.7, 1e-12);
     EXPECT_LT(speed(), 3);
 }
 
 TEST_F(ReboundTest, GivesNothingIfPartingFasterOrWithoutEnergy)
 {
-    m_rebound.m_speed = 0.01;
-    EXPECT_EQ(norm(giveRebound(m_problem, m_rebound)), 0);
-    m_rebound.m_speed = 3;
-    m_rebound.m_energy = -1;
-    EXPECT_NEAR(norm(giveRebound(m_problem, m_rebound)), 0, 1e-15);
+    m_rebounds[0].m_speed = 0.01;
+    EXPECT_FALSE(give(1e3));
+    EXPECT_EQ(m_rebounds[0].m_impulse, 0);
+    m_rebounds[0].m_speed = 3;
+    const double before = energy();
+    give(-1);
+    EXPECT_NEAR(energy(), before, 1e-12);
+}
+
+// A row of spheres parts as wanted at every contact, where impulses can only push.
+TEST_F(ReboundTest, PartsARowAtOnce)
+{
+    m_problem.m_rigidProxies = {freeSphere(2, {0, 0, 2}, {0, 0, 0.4}), freeSphere(2, {0, 0, 1}, {0, 0, 0.4}),
+                                freeSphere(2, {0, 0, 0}, {0, 0, 0.4})};
+    m_rebounds.assign(2, m_rebounds[0]);
+    m_rebounds[1].m_first = 1;
+    m_rebounds[1].m_second = 2;
+    m_rebounds[0].m_speed = 1.2;
+    m_rebounds[1].m_speed = 0;
+    EXPECT_TRUE(give(1e3));
+    EXPECT_NEAR(speed(0), 1.2, 1e-8);
+    EXPECT_NEAR(speed(1), 0, 1e-8);
+    m_rebounds[1].m_speed = -5;  // the contact does not pull
+    m_rebounds[0].m_speed = 3;
+    EXPECT_TRUE(give(1e3));
+    EXPECT_EQ(m_rebounds[1].m_impulse, 0);
+    EXPECT_NEAR(speed(0), 3, 1e-8);
 }
 
 // One component with the momenta of a rigid body; an added rigid motion is included.

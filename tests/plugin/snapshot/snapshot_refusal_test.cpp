@@ -197,6 +197,7 @@ TEST_F(RefusedSnapshot, InvalidImpactsAreRejected)
         expectRefused(bytes, reason);
     };
     expectImpactRefused([](Impact& i) { i.m_restitution = 1.5; }, "the restitution of an impact is 1.5");
+    expectImpactRefused([](Impact& i) { i.m_group = -1; }, "the group of an impact is -1");
     expectImpactRefused([](Impact& i) { i.m_component = 1; }, "the component of an impact is 1");
     expectImpactRefused([](Impact& i) { i.m_otherComponent = 7; }, "the component of an impact is 7");
     expectImpactRefused([](Impact& i) { i.m_normal.z = 2; }, "the normal of an impact has length 2");

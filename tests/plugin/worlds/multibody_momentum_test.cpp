@@ -193,7 +193,7 @@ TEST_P(FreeChain, KeepsAllMomentaWhenHitOnTwoLinksAtOnce)
             seen.second = seen.first();
         },
         &moved);
-    double linear = 0, angular = 0;
+    double linear = 0, angular = 0, given = 0;
     int most = 0;
     for (int k = 0; k < 60; ++k)
     {
@@ -201,12 +201,13 @@ TEST_P(FreeChain, KeepsAllMomentaWhenHitOnTwoLinksAtOnce)
         const Motion now = whole();
         linear = std::max(linear, norm(now.m_linear - moved.second.m_linear));
         angular = std::max(angular, norm(now.m_angular - moved.second.m_angular));
+        given = std::max(given, norm(motionOfLinks(chain).m_linear));
         most = std::max(most, static_cast<int>(m_fem.touches(&cube).size()));
         ASSERT_TRUE(allFinite(cube));
         ASSERT_LE(now.m_energy, 1.001 * start.m_energy);
     }
     EXPECT_GE(most, 2);
-    EXPECT_GT(norm(motionOfLinks(chain).m_linear), 0.1 * norm(start.m_linear));
+    EXPECT_GT(given, 0.2 * norm(start.m_linear));
     EXPECT_LT(linear, 1e-5 * norm(start.m_linear));
     EXPECT_LT(angular, 1e-5 * norm(start.m_linear));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "bullet_fem/fem/body/body.h"
@@ -11,8 +12,8 @@
 namespace bullet_fem
 {
 
-/// The response of one or two bodies to an impulse between them at a contact patch: their rigid motion, and a few
-/// vibrations that represent their elasticity [docs/theory.md, Rebound].
+/// The elastic response of one or two bodies to an impulse between them at a contact patch: a few vibrations that
+/// represent it [docs/theory.md, Rebound].
 struct PatchResponse
 {
     /// A vibration: its displacement z of the patch obeys z'' + beta w^2 z' + w^2 z = m_mobility F.
@@ -25,7 +26,6 @@ struct PatchResponse
 
     static constexpr int kVibrations = 8;  ///< of one body
 
-    double m_rigid = 0;  ///< mobility of the rigid motion of both [1/kg]
     std::array<Vibration, 2 * kVibrations> m_vibrations;
     int m_count = 0;  ///< number of vibrations
 };
@@ -34,12 +34,21 @@ struct PatchResponse
 /// patch. Call it after solveFreeMotion and before finishStep. Bodies on the low-memory path have none: false.
 BULLETFEM_API bool addVibrations(Body& body, const std::vector<Vec3>& impulses, PatchResponse& response);
 
-/// The rigid mobility of a body for such impulses [1/kg]; 0 if fixed nodes hold it.
-BULLETFEM_API double rigidMobility(Body& body, const std::vector<Vec3>& impulses);
+/// Contact patches of bodies that meet at once.
+struct MeetingPatches
+{
+    static constexpr std::size_t kMaxCount = 16;  ///< of patches
 
-/// The coefficient of restitution [-], in [0, 1], of two bodies that meet at `speed` [m/s] while the loads accelerate
-/// them towards each other by `acceleration` [m/s2]: the separation speed over that of approach, by a simulation of the
-/// patch in small steps. 0 if they do not separate.
-BULLETFEM_API double elasticRestitution(const PatchResponse& response, double speed, double acceleration);
+    std::vector<PatchResponse> m_responses;  ///< one per patch
+    /// Change of the separation speed of one patch by a unit impulse of another or of itself on the rigid motions
+    /// [1/kg], row by row.
+    std::vector<double> m_compliance;
+    std::vector<double> m_speed;         ///< at which the two sides meet [m/s]
+    std::vector<double> m_acceleration;  ///< towards each other, by the loads [m/s2]
+};
+
+/// Finds the separation speeds [m/s] with which the rigid motions of all part in the end, by a simulation of the
+/// patches in small steps. False if none part, as where loads hold them together.
+BULLETFEM_API bool findPartingSpeeds(const MeetingPatches& patches, std::vector<double>& parting);
 
 }  // namespace bullet_fem
