@@ -90,7 +90,7 @@ endfunction()
 
 # bulletfem_bullet_test(<name> <source>...  LIBS <target>...  LABEL <label>  [COST <seconds>]  [SLOW_IN_DOUBLE]):
 # bulletfem_test for each precision. In float64, names of the program and of its tests end in "-float64"; SLOW_IN_DOUBLE
-# labels them slow.
+# labels them slow. Programs of label slow define BULLETFEM_SLOW_TEST.
 function(bulletfem_bullet_test name)
     cmake_parse_arguments(ARG "SLOW_IN_DOUBLE" "LABEL;COST" "LIBS" ${ARGN})
     foreach(precision IN LISTS BULLETFEM_PRECISIONS)
@@ -104,5 +104,8 @@ function(bulletfem_bullet_test name)
             SUFFIX "${suffix}" KIND -bullet
             PRECOMPILE <BulletSoftBody/btSoftBody.h> <BulletSoftBody/btSoftRigidDynamicsWorld.h>
                 <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h> <btBulletDynamicsCommon.h>)
+        if(ARG_LABEL STREQUAL slow)
+            target_compile_definitions(${name}${suffix} PRIVATE BULLETFEM_SLOW_TEST)
+        endif()
     endforeach()
 endfunction()

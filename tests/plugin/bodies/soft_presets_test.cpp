@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 //
 // Cubes of the presets stand on a plane, at sizes of games (docs/manual.md, How stiff must my body be). With
-// BULLETFEM_FINE_PRESETS the meshes are finer, which takes a minute.
+// BULLETFEM_SLOW_TEST the meshes are finer, which takes a minute.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ namespace bullet_fem
 namespace
 {
 
-#ifdef BULLETFEM_FINE_PRESETS
+#ifdef BULLETFEM_SLOW_TEST
 constexpr int kCellsAcross = 8;
 #else
 constexpr int kCellsAcross = 4;

@@ -282,7 +282,7 @@ std::string nameOfSharpScene(const testing::TestParamInfo<SharpParameters>& suit
            std::to_string(std::get<4>(suite.param)) + "Hz";
 }
 
-#ifdef BULLETFEM_ALL_SHARP_SCENES
+#ifdef BULLETFEM_SLOW_TEST
 INSTANTIATE_TEST_SUITE_P(ErlebenInShortSteps, SharpScenes,
                          testing::Combine(testing::ValuesIn(sharpMeshes()), testing::Values(1, 2, 4),
                                           testing::Values(MeshKind::mesh), testing::Values(Coupling::swap),

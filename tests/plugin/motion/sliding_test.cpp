@@ -70,6 +70,13 @@ private:
     btSoftBody* m_block;
 };
 
+// Rates of Seams and of Steps [Hz].
+#ifdef BULLETFEM_SLOW_TEST
+constexpr auto kSeamRates = {30, 120}, kStepRates = {120};
+#else
+constexpr auto kSeamRates = {60, 240}, kStepRates = {60};
+#endif
+
 class Seams : public testing::TestWithParam<std::tuple<Coupling, Ground, int>>
 {
 };
@@ -116,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Grounds, Seams,
                                           testing::Values(Ground::oneBox, Ground::boxes, Ground::compound,
                                                           Ground::hulls, Ground::kinematicBoxes, Ground::meshTiles,
                                                           Ground::meshBoxes, Ground::heightfield, Ground::mesh),
-                                          testing::Values(30, 60, 120, 240)),
+                                          testing::ValuesIn(kSeamRates)),
                          nameOf);
 
 INSTANTIATE_TEST_SUITE_P(Grounds, SpeedsAtSeams,
@@ -161,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Grounds, Steps,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
                                           testing::Values(Ground::boxes, Ground::compound, Ground::hulls,
                                                           Ground::meshTiles, Ground::meshBoxes),
-                                          testing::Values(60, 120)),
+                                          testing::ValuesIn(kStepRates)),
                          nameOf);
 
 btFemMaterial undamped()
