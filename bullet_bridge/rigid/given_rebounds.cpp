@@ -23,22 +23,34 @@ constexpr double kWhole = 0.99;
 
 }  // namespace
 
+// True if two impacts have a number in common and a body that can move: numbers are unique in a contact problem alone.
+bool Rebounds::isOneGroup(const Live& a, const Live& b) const
+{
+    if (a.m_impact->m_group == 0 || a.m_impact->m_group != b.m_impact->m_group) return false;
+    for (const int k : {a.m_first, a.m_second})
+        if ((k == b.m_first || k == b.m_second) && m_problem.m_rigidProxies[k].canMove()) return true;
+    return false;
+}
+
 // Parts an impact that is ready, with its group when all of it are. After the body has been stopped, energy that is
 // still in its elasticity may return for kPatience times the stopping time.
 void Rebounds::partGroup(std::size_t first)
 {
-    const int group = m_live[first].m_impact->m_group;
     m_parting.clear();
+    if (!m_live[first].m_isOver) m_parting.push_back(&m_live[first]);
+    for (std::size_t p = 0; p < m_parting.size(); ++p)
+        for (Live& live : m_live)
+            if (!live.m_isOver && isOneGroup(*m_parting[p], live) &&
+                std::find(m_parting.begin(), m_parting.end(), &live) == m_parting.end())
+                m_parting.push_back(&live);
     bool isReady = true, isPressed = false;
     double wait = 0;
-    for (std::size_t k = 0; k < m_live.size(); ++k)
+    for (const Live* live : m_parting)
     {
-        Live& live = m_live[k];
-        if (live.m_isOver || (k != first && (group == 0 || live.m_impact->m_group != group))) continue;
-        m_parting.push_back(&live);
-        isReady = isReady && live.m_isReady;
-        isPressed = isPressed || live.m_impact->m_isPressed;
-        if (live.m_impact->m_stopTime > 0) wait = std::max(wait, live.m_impact->m_time / live.m_impact->m_stopTime);
+        const Impact& impact = *live->m_impact;
+        isReady = isReady && live->m_isReady;
+        isPressed = isPressed || impact.m_isPressed;
+        if (impact.m_stopTime > 0) wait = std::max(wait, impact.m_time / impact.m_stopTime);
     }
     if (m_parting.empty() || (!isReady && wait < kPatience)) return;
     const bool mayWait = isPressed || !(m_live[first].m_impact->m_push > 0);

@@ -84,6 +84,7 @@ private:
     Vec3 patchVelocity(const Live& live) const;
     void turnNormal(const Live& live, double step) const;
     void follow(Live& live, double step) const;
+    bool isOneGroup(const Live& a, const Live& b) const;
     void partGroup(std::size_t first);
     double energyFor(const Live& live) const;
     double energyForGroup(const std::vector<Live*>& parting);
