@@ -22,7 +22,8 @@ namespace py = pybind11;
 using Doubles = py::array_t<double, py::array::c_style>;
 using Dims = std::vector<py::ssize_t>;
 
-constexpr double kLargest = 1e6;  ///< largest coordinate that a body may have [m]
+constexpr double kLargest = 1e6;            ///< largest coordinate that a body may have [m]
+constexpr double kLargestStiffness = 1e12;  ///< of cables and springs [N/m], their damping [N s/m] and force [N]
 
 /// A finite contiguous array of this shape, where -1 stands for any length. Copies only if it must.
 Doubles doublesOf(py::handle object, const char* name, const Dims& shape);

@@ -7,10 +7,9 @@ namespace bullet_fem::python
 namespace
 {
 
-constexpr double kLargestPressure = 1e8;    // [Pa]
-constexpr double kLargestStress = 1e13;     // [Pa]
-constexpr double kLargestTension = 1e9;     // [N]
-constexpr double kLargestStiffness = 1e12;  // [N/m]
+constexpr double kLargestPressure = 1e8;  // [Pa]
+constexpr double kLargestStress = 1e13;   // [Pa]
+constexpr double kLargestTension = 1e9;   // [N]
 
 btSoftBody& changed(const SoftHandle& self)
 {

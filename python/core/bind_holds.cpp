@@ -7,8 +7,6 @@ namespace bullet_fem::python
 namespace
 {
 
-constexpr double kLargestStiffness = 1e12;
-
 /// An anchor, attachment, joint or spring of the last step as a row of a structured array.
 struct HoldRow
 {
