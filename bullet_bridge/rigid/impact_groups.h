@@ -46,7 +46,7 @@ public:
     void find();
 
 private:
-    // What is noted of a patch.
+    // Notes on a patch.
     struct Noted
     {
         int m_impact = -1;  // in the list of its body

@@ -26,7 +26,7 @@ constexpr int kJacobiSweeps = 12;
 // periods after which bodies still in contact rest on each other; half periods without contact until they have parted.
 constexpr int kSteps = 400, kLongest = 20, kParted = 2;
 
-// Of several patches: largest ratio of half periods that steps resolve, sweeps over the patches of a step at most, and
+// Limits for several patches: largest ratio of half periods that steps resolve, sweeps over the patches of a step, and
 // the change of an impulse as a share of the largest that ends them [-].
 constexpr int kMaxRatio = 4, kPatchSweeps = 50;
 constexpr double kPatchError = 1e-6;

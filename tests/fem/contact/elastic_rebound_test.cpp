@@ -59,7 +59,7 @@ TEST(ElasticRestitution, IsZeroForBodiesThatDoNotLeave)
 }
 
 // Equal masses in a row, with equal springs between them, of which one comes with a speed of 1: the last takes nearly
-// all of it, and none of the energy is lost. Of three masses the speeds are -.129, .148 and .981.
+// all of it, and none of the energy is lost. The speeds of three masses are -.129, .148 and .981.
 TEST(ElasticRestitution, PassesThroughARow)
 {
     for (const std::size_t masses : {std::size_t(3), std::size_t(5)})
