@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "fem/body/step_scratch.h"
 #include "fem/factor/rest_factor.h"
@@ -265,6 +267,11 @@ bool addVibrations(Body& body, const std::vector<Vec3>& impulses, PatchResponse&
 bool findPartingSpeeds(const MeetingPatches& patches, std::vector<double>& parting)
 {
     const std::size_t count = patches.m_responses.size();
+    if (count > MeetingPatches::kMaxCount || patches.m_compliance.size() != count * count ||
+        patches.m_speed.size() != count || patches.m_acceleration.size() != count)
+        throw std::invalid_argument("findPartingSpeeds: " + std::to_string(count) + " patches, which must be at most " +
+                                    std::to_string(MeetingPatches::kMaxCount) +
+                                    " and have a speed, an acceleration and a row of the compliance each");
     double shortest = 0, longest = 0;
     for (std::size_t p = 0; p < count; ++p)
     {

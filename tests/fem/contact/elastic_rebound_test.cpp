@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "bullet_fem/fem/mesh/generators.h"
 #include "bullet_fem/fem/step/stepping.h"
@@ -173,6 +174,25 @@ TEST_F(StruckBar, RespondsAlikeWhereTurned)
     PatchResponse turned;
     ASSERT_TRUE(addVibrations(m_body, m_impulses, turned));
     EXPECT_NEAR(softness(turned), softness(m_response), 1e-3 * softness(m_response));
+}
+
+TEST(ElasticRestitution, RefusesTooManyPatchesAndListsOfOtherSizes)
+{
+    MeetingPatches patches;
+    const auto resize = [&patches](std::size_t count)
+    {
+        patches.m_responses.resize(count);
+        patches.m_speed.resize(count, 1);
+        patches.m_acceleration.resize(count);
+        patches.m_compliance.resize(count * count, 1);
+    };
+    std::vector<double> parting;
+    resize(MeetingPatches::kMaxCount);
+    EXPECT_FALSE(findPartingSpeeds(patches, parting));
+    patches.m_speed.pop_back();
+    EXPECT_THROW(findPartingSpeeds(patches, parting), std::invalid_argument);
+    resize(MeetingPatches::kMaxCount + 1);
+    EXPECT_THROW(findPartingSpeeds(patches, parting), std::invalid_argument);
 }
 
 }  // namespace

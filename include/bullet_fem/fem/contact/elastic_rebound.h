@@ -34,21 +34,22 @@ struct PatchResponse
 /// patch. Call it after solveFreeMotion and before finishStep. Bodies on the low-memory path have none: false.
 BULLETFEM_API bool addVibrations(Body& body, const std::vector<Vec3>& impulses, PatchResponse& response);
 
-/// Contact patches of bodies that meet at once.
+/// Contact patches of bodies that meet at once, 1 to kMaxCount. One entry per patch in every list but m_compliance.
 struct MeetingPatches
 {
     static constexpr std::size_t kMaxCount = 16;  ///< of patches
 
-    std::vector<PatchResponse> m_responses;  ///< one per patch
+    std::vector<PatchResponse> m_responses;  ///< of the two bodies at a patch
     /// Change of the separation speed of one patch by a unit impulse of another or of itself on the rigid motions
-    /// [1/kg], row by row.
+    /// [1/kg], row by row: the number of patches squared.
     std::vector<double> m_compliance;
     std::vector<double> m_speed;         ///< at which the two sides meet [m/s]
     std::vector<double> m_acceleration;  ///< towards each other, by the loads [m/s2]
 };
 
 /// Finds the separation speeds [m/s] with which the rigid motions of all part in the end, by a simulation of the
-/// patches in small steps. False if none part, as where loads hold them together.
+/// patches in small steps. False if none part, as where loads hold them together. Throws std::invalid_argument, naming
+/// the number, if there are more than kMaxCount patches, or a list has another size than theirs.
 BULLETFEM_API bool findPartingSpeeds(const MeetingPatches& patches, std::vector<double>& parting);
 
 }  // namespace bullet_fem
