@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr double kMinLikeness = -2;  // smallest similarity of a contact to one of the last step; 1: equal
+constexpr double kOfVertex = 0.9;    // weight of a vertex from which on a contact is at it [-]
 
 // True if a contact pushes more than another, or as much and is deeper: of a vertex that only touches, edges beside it
 // may bear the load. `other` may be null.
@@ -18,6 +19,16 @@ bool holdsMore(const ContactPoint& contact, const ContactPoint* other)
     if (other == nullptr) return true;
     const double push = dot(contact.m_impulse, contact.m_normal), otherPush = dot(other->m_impulse, other->m_normal);
     return push > otherPush || (push == otherPush && contact.m_gap < other->m_gap);
+}
+
+// The vertex that has most of a contact, or -1. Corners of faces and edges are nodes, unless the surface is a drawn
+// one.
+int vertexOf(const FemSoftBody& fem, int feature, const ContactPoint& contact)
+{
+    if (feature < fem.m_surface.topology().vertexCount()) return feature;
+    for (int a = 0; a < contact.m_soft.m_count && !fem.m_skin; ++a)
+        if (contact.m_soft.m_weights[a] > kOfVertex) return contact.m_soft.m_nodes[a];
+    return -1;
 }
 
 }  // namespace
@@ -30,9 +41,9 @@ void ContactMatcher::begin(const FemSoftBody& fem)
     m_heldBy.assign(vertexCount, nullptr);
     for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
     {
-        const int vertex = memory.m_origins[k].m_feature;
         const ContactPoint& contact = memory.m_contacts[k];
-        if (vertex >= vertexCount || !holdsMore(contact, m_heldBy[vertex])) continue;
+        const int vertex = vertexOf(fem, memory.m_origins[k].m_feature, contact);
+        if (vertex < 0 || !holdsMore(contact, m_heldBy[vertex])) continue;
         m_heldBy[vertex] = &contact;
         m_heldNormal[vertex] = contact.m_normal;
     }

@@ -15,7 +15,8 @@ namespace bullet_fem
 class ContactMatcher
 {
 public:
-    /// Notes the contact of every vertex that pushed most in the last step; of those that did not, the deepest.
+    /// Notes the contact at every vertex, its own or nearby on a face or edge, that pushed most in the last step; of
+    /// those that did not, the deepest.
     void begin(const FemSoftBody& fem);
 
     /// Per vertex, the normal of that contact, or 0.

@@ -11,7 +11,8 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kFlatSine = 1e-3;       // sine up to which a triangle is parallel to a soft face or edge [-]
+constexpr double kFlatSine = 1e-3;       // smallest sine by which a tip or ridge falls off [-]
+constexpr double kHardlyRises = 0.1;     // largest rise around a tip or ridge over its fall [-]
 constexpr double kParallelEdges = 1e-3;  // sine of the angle between edges that count as parallel [-]
 constexpr double kOutsideOfCone = 0.05;  // tolerance of a normal outside the cone of a soft edge's normals [-]
 
@@ -39,11 +40,19 @@ bool isWithin(const SheetFeature& feature, double gap)
     return gap - feature.m_thickness <= feature.m_reach && gap >= -feature.m_depth;
 }
 
-/// True if corner q of a triangle is a tip: no triangle around it rises against `direction`, and one falls off. True
-/// only for the triangle of smallest index among those that share the corner.
+/// True if a surface that rises and falls by at most these sines around a point stands out there: soft faces are seldom
+/// exactly parallel to a top whose corners they lie on.
+bool standsOut(double rise, double fall)
+{
+    return fall > kFlatSine && rise <= kHardlyRises * fall;
+}
+
+/// True if corner q of a triangle is a tip: the triangles around it fall off along `direction`, and hardly rise against
+/// it. True only for the triangle of smallest index among those that share the corner.
 bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& direction)
 {
-    bool tip = true, falls = false;
+    bool isFirst = true;
+    double rise = 0, fall = 0;
     const auto check = [&](int t)
     {
         for (const Vec3& corner : soup.triangles()[t].m_corners)
@@ -52,15 +61,18 @@ bool isTip(const TriangleSoup& soup, int triangle, const Vec3& q, const Vec3& di
             const double length = norm(way);
             const double beyond = dot(way, direction);
             if (length <= soup.tolerance())
-                tip = tip && t >= triangle;
+                isFirst = isFirst && t >= triangle;
             else
-                tip = tip && beyond >= -kFlatSine * length;
-            falls = falls || beyond > kFlatSine * length;
+            {
+                rise = std::max(rise, -beyond / length);
+                fall = std::max(fall, beyond / length);
+            }
         }
     };
     check(triangle);
-    if (tip) soup.forEachAround(q, check);
-    return tip && falls;
+    if (rise > kHardlyRises) return false;  // no sine of a fall is larger than 1
+    soup.forEachAround(q, check);
+    return isFirst && standsOut(rise, fall);
 }
 
 /// The crossing of a soft edge and an edge of the soup.
@@ -97,15 +109,16 @@ bool crossEdges(const SheetFeature& soft, const Corners& triangle, int e, EdgeCr
     return isWithin(soft, crossing.m_gap);
 }
 
-/// True if the triangle falls off from its edge at the crossing, and none beside the edge rises. True only for the
-/// triangle of smallest index among those that fall off.
+/// True if the triangle falls off from its edge at the crossing, and those beside the edge hardly rise. True only for
+/// the triangle of smallest index among those that fall off.
 bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossing)
 {
-    bool ridge = true, falls = false;
+    bool isFirst = true;
+    double rise = 0, fall = 0;
     const auto check = [&](int t)
     {
         int onEdge = 0;
-        falls = false;
+        bool falls = false;
         for (const Vec3& corner : soup.triangles()[t].m_corners)
         {
             const Vec3 way = corner - crossing.m_point;
@@ -113,17 +126,18 @@ bool isRidge(const TriangleSoup& soup, int triangle, const EdgeCrossing& crossin
                 ++onEdge;
             else
             {
-                const double above = dot(way, crossing.m_normal);
-                ridge = ridge && above <= kFlatSine * norm(way);
-                falls = falls || above < -kFlatSine * norm(way);
+                const double above = dot(way, crossing.m_normal) / norm(way);
+                rise = std::max(rise, above);
+                fall = std::max(fall, -above);
+                falls = falls || -above > kFlatSine;
             }
         }
-        ridge = ridge && (onEdge < 2 || !falls || t >= triangle);
+        isFirst = isFirst && (onEdge < 2 || !falls || t >= triangle);
     };
     check(triangle);
-    if (!ridge || !falls) return false;
+    if (!(fall > kFlatSine) || rise > kHardlyRises) return false;
     soup.forEachAround(crossing.m_point, check);
-    return ridge;
+    return isFirst && standsOut(rise, fall);
 }
 
 }  // namespace

@@ -123,13 +123,11 @@ Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& posit
     return position - sheets.m_scope.m_band * m_outward[node];
 }
 
-// The node's position on the right side of the sheets. A sliding node may pass flush walls a little below the surface
-// that carried it, so it approaches its position from above.
+// The node's position on the right side of the sheets, approached from above the surface that carried it: a node may be
+// a little below it, where it slides past flush walls or came over a rim.
 Vec3 SheetSearch::rightSideOf(const Sheets& sheets, int node, const Vec3& position, const Vec3& heldNormal) const
 {
-    const Vec3 safe = safePosition(sheets, node, position);
-    const Vec3 lift = sheets.m_scope.m_band * heldNormal;
-    return onRightSide(m_soup, norm(lift) > 0 ? onRightSide(m_soup, safe, position + lift) : safe, position);
+    return onRightSide(m_soup, safePosition(sheets, node, position) + sheets.m_scope.m_band * heldNormal, position);
 }
 
 void SheetSearch::findOnNodes(const Sheets& sheets, const std::vector<Vec3>& heldNormal, ContactList& list)

@@ -19,6 +19,7 @@ namespace
 constexpr double kPrecision = 2e-7;   // of Bullet's coordinates, relative to their magnitude [-]
 constexpr double kSliver = 1e-6;      // smallest ratio of twice the area and the longest edge squared [-]
 constexpr double kOnFace = 1e-6;      // tolerance of barycentric coordinates inside a triangle [-]
+constexpr double kSamePlace = 10;     // distance of crossings at one place, over the tolerance
 constexpr double kNotNearer = 1e-12;  // relative rounding error of distances [-]
 constexpr int kCellsPerTriangle = 4;
 
@@ -221,6 +222,8 @@ SoupCrossing TriangleSoup::firstCrossing(const Vec3& from, const Vec3& to, doubl
 {
     SoupCrossing first;
     first.m_along = 2;
+    double steepest = 0;
+    const double sameShare = kSamePlace * m_tolerance / std::max(norm(to - from), m_tolerance);
     Vec3 low, high;
     for (int c = 0; c < 3; ++c)
     {
@@ -235,12 +238,15 @@ SoupCrossing TriangleSoup::firstCrossing(const Vec3& from, const Vec3& to, doubl
                   const Vec3 normal = height > 0 ? triangle.m_normal : -triangle.m_normal;
                   const double a = std::abs(height), b = dot(normal, to - triangle.m_corners[0]);
                   if (a == 0 || !(b < clearance || b == 0)) return;
-                  const double along = b > 0 ? 1 : a / (a - b);
-                  if (along > first.m_along || (along == first.m_along && t > first.m_triangle)) return;
+                  const double along = b > 0 ? 1 : a / (a - b), steep = a - b;
+                  if (along > first.m_along + sameShare) return;
+                  const bool isLess = steep < steepest || (steep == steepest && t > first.m_triangle);
+                  if (along >= first.m_along - sameShare && isLess) return;
                   std::array<double, 3> w;
                   if (!projectOnPlane(triangle.m_corners, from + along * (to - from), w)) return;
                   if (std::min({w[0], w[1], w[2]}) < -kOnFace) return;
                   first = {t, along, normal};
+                  steepest = steep;
               });
     return first;
 }

@@ -299,6 +299,47 @@ INSTANTIATE_TEST_SUITE_P(Erleben, SharpScenes,
                                           testing::Values(MeshKind::mesh), testing::Values(Coupling::swap),
                                           testing::Values(60)),
                          nameOfSharpScene);
+
+// A cube of one cell falls onto a mesh of its size: vertices and corners of the mesh meet within rounding, or a little
+// beside each other. Half width of the mesh's foot over that of its top, difference of the sizes over the size, height.
+class CubeOnItsLike : public testing::TestWithParam<std::tuple<double, double, double> >
+{
+};
+
+TEST_P(CubeOnItsLike, Rests)
+{
+    const auto [foot, difference, height] = GetParam();
+    FemWorld world(WorldClass::softRigid, Coupling::coupled);
+    Grounds grounds;
+    std::vector<btVector3> corners;
+    for (const Vec3& x : SharpSolid(squareAt(0, 0, 0.5 * foot), -1, squareAt(0, 0, 0.5), 0).triangles())
+        corners.push_back(bulletVector(x));
+    const btRigidBody& ground = grounds.addTriangles(world, corners, false);
+    const double width = 1 + difference;
+    btSoftBody& body = *btFemHelpers::createFromTetMesh(
+        world.info(), makeBox({width, width, 1}, {1, 1, 1}, {-width / 2, -width / 2, height}));
+    btFemMaterial material;
+    material.m_youngModulus = 1e6;
+    material.m_poissonRatio = btScalar(0.4);
+    material.m_density = 1000;
+    material.m_stiffnessDamping = btScalar(0.005);
+    world.fem().setMaterial(&body, material);
+    body.m_cfg.kDF = btScalar(kCubeFriction);
+    world.addSoft(&body);
+    double lowest = 0;
+    for (int k = 0; k < 180; ++k)
+    {
+        world.step(1);
+        lowest = std::min(lowest, lowestHeight(body));
+    }
+    EXPECT_GT(lowest, -0.02);
+    EXPECT_LT(fastestNode(body), 1e-2);
+    EXPECT_NEAR(world.fem().contactForce(&body, &ground).z() / (massOf(body) * kGravity), 1, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Erleben, CubeOnItsLike,
+                         testing::Combine(testing::Values(1.0, 1.5), testing::Values(0.0, 1e-5, -1e-5, 1e-3, -1e-3),
+                                          testing::Values(0.02, 0.05, 0.1)));
 #endif
 
 }  // namespace
