@@ -6,15 +6,16 @@
 #include <cmath>
 #include <tuple>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kFine = 0.6;        // a skin is fine if its mean edge over the tetrahedra's is smaller [-]
-constexpr double kCell = 0.5;        // width of a cell over the tetrahedra's mean edge [-]
-constexpr double kWider = 1.4;       // growth of a cell until contacts are few enough: half as many on a surface [-]
-constexpr double kSameNormal = 0.9;  // cosine up to which normals count as different
+constexpr double kFine = 0.6;   // a skin is fine if its mean edge over the tetrahedra's is smaller [-]
+constexpr double kCell = 0.5;   // width of a cell over the tetrahedra's mean edge [-]
+constexpr double kWider = 1.4;  // growth of a cell until contacts are few enough: half as many on a surface [-]
 
 }  // namespace
 
@@ -100,7 +101,7 @@ bool ContactReduction::isNeeded(std::size_t candidate, std::size_t firstOfCell, 
     for (std::size_t k = firstOfCell; k < candidate; ++k)
     {
         const Candidate& other = m_candidates[k];
-        if (!m_kept[other.m_index] || dot(other.m_normal, c.m_normal) < kSameNormal) continue;
+        if (!m_kept[other.m_index] || dot(other.m_normal, c.m_normal) < kSameNormalCosine) continue;
         ++alike;
         deeper = deeper && c.m_gap < other.m_gap - c.m_slop;
     }

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kParallelNormals = 0.7;  // smallest cosine between the normals
 constexpr double kFarPerGap = 30;  // distance that counts for a gap, over the gap: an open contact carries no load yet
 
 bool isZero(const Vec3& v)
@@ -46,7 +47,7 @@ WarmStartTransfer::Candidate* WarmStartTransfer::nearestCandidate(const Lost& lo
         const double cost =
             distance + kFarPerGap * std::max(candidate.m_contact->m_gap, 0.0) + (candidate.m_hasImpulse ? reach : 0);
         if (!(distance < reach) || !(cost < best)) continue;
-        if (candidate.m_sign * dot(candidate.m_contact->m_normal, lost.m_normal) < kParallelNormals) continue;
+        if (candidate.m_sign * dot(candidate.m_contact->m_normal, lost.m_normal) < kCarrierCosine) continue;
         best = cost;
         nearest = &candidate;
     }

@@ -5,18 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFacingCosine = -0.1;  // largest cosine between a vertex's normal and the direction away from the
-                                        // cloth, outside
-constexpr double kFlatCosine = 0.5;     // smallest |cosine| between a vertex's normal and a face's that it has passed
-constexpr double kDeepest = 0.5;        // largest penetration of a face by a vertex, in mean edges
-constexpr double kOnIt = 1e-9;          // smallest distance that gives a direction, in mean edges
-constexpr int kMaxAdvances = 32;        // of conservative advancement
+constexpr double kPassedCosine = 0.5;  // smallest |cosine| between a vertex's normal and a face's that it has passed
+constexpr double kDeepest = 0.5;       // largest penetration of a face by a vertex, in mean edges
+constexpr double kOnIt = 1e-9;         // smallest distance that gives a direction, in mean edges
+constexpr int kMaxAdvances = 32;       // of conservative advancement
 
 const auto kNone = [](int) { return false; };
 
@@ -107,7 +107,7 @@ bool ClothContactSearch::lookAtCloth(const Mover& mover, const Vec3& x, double m
     const Corners t = m_cloth.tree()->corners(place.m_triangle);
     const Vec3 across = normalOf(t);
     const double facing = dot(across, mover.m_normal);
-    if (!(std::fabs(facing) > kFlatCosine)) return false;
+    if (!(std::fabs(facing) > kPassedCosine)) return false;
     place.m_normal = facing < 0 ? across : -across;
     place.m_distance = -place.m_distance;
     return true;

@@ -9,6 +9,7 @@
 #include "bullet_bridge/body/fem_soft_body.h"
 #include "bullet_bridge/contact/friction.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/geometry/tolerances.h"
 #include "bullet_bridge/joints/rigid_pivot.h"
 #include "bullet_bridge/joints/soft_anchors.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -19,9 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kErp = 0.5;         // share of an attachment's error that a step corrects (Baumgarte) [-]
-constexpr double kClothBand = 0.05;  // width of the contact band over the body's mean edge [-]
-constexpr double kClothSlop = 5e-4;  // permitted penetration over the body's size [-]
+constexpr double kErp = 0.5;  // share of an attachment's error that a step corrects (Baumgarte) [-]
 
 }  // namespace
 
@@ -148,7 +147,7 @@ void ClothContacts::search(const FemSoftBody& fem, int maxContacts, Search& sear
     if (!m_isUsable[search.m_surface]) return;
     const ClothSurface& cloth = *m_surfaces[search.m_surface];
     const double thickness = cloth.thickness() + fem.m_settings.m_contactOffset;
-    ClothContactSearch(fem.m_surface, cloth, thickness, kClothBand * fem.m_surface.meanEdge()).find(search.m_touches);
+    ClothContactSearch(fem.m_surface, cloth, thickness, kContactBand * fem.m_surface.meanEdge()).find(search.m_touches);
     search.m_limited = keepNearest(maxContacts, search.m_order, search.m_touches);
 }
 
@@ -208,7 +207,7 @@ void ClothContacts::appendContact(const Search& search, const FemSoftBody& fem, 
     contact.m_point = touch.m_point;
     contact.m_normal = touch.m_normal;
     contact.m_gap = touch.m_gap;
-    contact.m_slop = kClothSlop * fem.m_surface.size();
+    contact.m_slop = kSoftSlop * fem.m_surface.size();
     contact.m_hardness = std::max(0.0, double(std::min(fem.m_softBody->m_cfg.kSHR, cloth.body().m_cfg.kSHR)));
     contact.m_friction = frictionBetween(*fem.m_softBody, cloth.body());
     contact.m_rigidProxy = appendProxy(

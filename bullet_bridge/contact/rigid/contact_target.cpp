@@ -9,15 +9,15 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/contact/friction.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "bullet_bridge/geometry/tolerances.h"
 
 namespace bullet_fem
 {
 namespace
 {
 
-constexpr double kContactBand = 0.05;  // width of the contact band over the mean edge [-]
-constexpr double kAdvantage = 0.003;   // by which a nearest point must be closer than the fixed points, over the mean
-                                       // edge [-]
+constexpr double kAdvantage = 0.003;  // by which a nearest point must be closer than the fixed points, over the mean
+                                      // edge [-]
 constexpr double kRigidStiffness = 1e17;       // Bullet's value for a rigid contact is 1e18 (float) or 1e30 [N/m]
 constexpr double kUsualKineticHardness = 0.1;  // Bullet's default of kKHR; those of kCHR and kSHR are 1
 

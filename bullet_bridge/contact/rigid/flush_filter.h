@@ -7,11 +7,11 @@
 #include "bullet_bridge/contact/rigid/carried_motion.h"
 #include "bullet_bridge/contact/rigid/contact_list.h"
 #include "bullet_bridge/geometry/shapes/triangle_soup.h"
+#include "bullet_bridge/geometry/tolerances.h"
 
 namespace bullet_fem
 {
 
-constexpr double kCarrierCosine = 0.7;     ///< smallest cosine of normals of surfaces that carry together [-]
 constexpr double kParallelCosine = 0.999;  ///< smallest cosine of normals of one surface [-]
 
 /// Finds the contacts with side walls that are flush with a surface that carries the point: they do not obstruct it.

@@ -9,6 +9,7 @@
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletCollision/CollisionShapes/btPolyhedralConvexShape.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "bullet_bridge/geometry/tolerances.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
 
 namespace bullet_fem
@@ -17,7 +18,6 @@ namespace
 {
 
 constexpr double kNotNear = std::numeric_limits<double>::infinity();
-constexpr double kGradientSlack = 1e-3;  // tolerance of gaps bounded by gradients, over the mean edge
 constexpr double kHeldAdvantage = 0.1;   // share of the advantage that a nearest point needs if it pushed in the last
                                          // step
 constexpr double kSlowestWander = 0.02;  // largest displacement of a steady nearest point in a step, over the mean edge
@@ -88,7 +88,7 @@ bool isUnderCorner(const SearchScope& scope, const ContactTarget& target, int tr
 // True if no point of the edge or triangle is within reach.
 bool isFar(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes)
 {
-    return scope.m_culling.minGap(nodes) > target.m_reach + kGradientSlack * scope.m_edge;
+    return scope.m_culling.minGap(nodes) > target.m_reach + kNegligibleLength * scope.m_edge;
 }
 
 // Gap at a point of the surface; infinite if it is out of reach.

@@ -9,6 +9,7 @@
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "bullet_bridge/geometry/tolerances.h"
 
 namespace bullet_fem
 {
@@ -16,10 +17,6 @@ namespace
 {
 
 constexpr double kRollingGap = 0.1;  // largest approach of a rolling contact within a step, over the body's size
-constexpr double kGrazing = 1e-3;  // clearance up to which paths still meet, as along the rim of a face, over the mean
-                                   // edge
-constexpr double kSameSideCosine = 0.9;  // smallest cosine between the normal of the nearest point and that of the
-                                         // meeting point
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A target and the surface's motion along the paths.
@@ -64,7 +61,8 @@ bool meetsIfHeld(const Paths& search, const Triangle& nodes, const Vec3& held, S
         d.m_gap -= d.m_barycentric[i] * dot(d.m_normal, path.m_position[i] - fem.surfacePosition()[nodes[i]]);
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
     if (isBesideCarryingPlane(search.m_scope, search.m_target, point, d.m_normal, d.m_gap)) return false;
-    if (search.m_target.m_carrying->m_exists && dot(d.m_normal, search.m_target.m_carrying->m_normal) > kSameSideCosine)
+    if (search.m_target.m_carrying->m_exists &&
+        dot(d.m_normal, search.m_target.m_carrying->m_normal) > kSameNormalCosine)
         d.m_normal = search.m_target.m_carrying->m_normal;
     return true;
 }
@@ -157,8 +155,9 @@ void confirmOnPaths(const SearchScope& scope, const ContactTarget& target, const
         const int feature = near.origins()[k].m_feature;
         const Triangle corners = cornersOf(fem, target, feature);
         SweptContact contact;
-        if (!meets({scope, target, filter.carried(), *swept, 0, kGrazing * scope.m_edge}, corners, contact)) continue;
-        if (dot(contact.m_surface.m_normal, near.points()[k].m_normal) > kSameSideCosine)
+        if (!meets({scope, target, filter.carried(), *swept, 0, kNegligibleLength * scope.m_edge}, corners, contact))
+            continue;
+        if (dot(contact.m_surface.m_normal, near.points()[k].m_normal) > kSameNormalCosine)
             keepNear(near, filter, k, list);
         else
             list.keep(scope, target, feature, corners, contact.m_surface);

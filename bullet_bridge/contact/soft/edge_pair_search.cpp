@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
@@ -15,10 +17,7 @@ namespace
 constexpr double kNormalArcSine = 0.03;  // tolerance (sine) of a normal outside the arc between two faces' normals
 constexpr double kNormalArcSineAtImpact = 0.2;  // that tolerance at an impact, as the faces have rotated since the
                                                 // start of the step
-constexpr double kHeldBend = 0.03;       // sine of the dihedral angle from which on a former ridge counts as a groove
 constexpr double kParallel = 0.05;       // sine of the angle between edges below which nearest points are not reliable
-constexpr double kEdgeEndShare = 1e-3;   // share of an edge's length that belongs to each of its nodes
-constexpr double kUnprovenDepth = 1e-3;  // largest depth that needs no proof, in edges
 constexpr double kWayAsideShare = 1e-3;  // distance of the way out from the edges, over the depth
 constexpr double kPositionRounding = 3e-7;  // relative rounding of positions in single precision
 constexpr double kWayEnd = 0.01;            // share of the way at each side that lies on the surfaces
@@ -36,7 +35,8 @@ Vec3 between(const std::array<Vec3, 4>& ends, const LineParameters& at)
 
 bool isInterior(const LineParameters& at)
 {
-    return at.m_a > kEdgeEndShare && at.m_a < 1 - kEdgeEndShare && at.m_b > kEdgeEndShare && at.m_b < 1 - kEdgeEndShare;
+    return at.m_a > kNegligibleLength && at.m_a < 1 - kNegligibleLength && at.m_b > kNegligibleLength &&
+           at.m_b < 1 - kNegligibleLength;
 }
 
 Vec3 unitNormal(const std::array<Vec3, 4>& ends)
@@ -178,7 +178,7 @@ void EdgePairSearch::tryHeld(const EdgePair& held, const NodesFound& nodes)
     if (!hasEdge(*m_first, held.m_first) || !hasEdge(*m_second, held.m_second)) return;
     const double bendA = m_first->bend(held.m_first), bendB = m_second->bend(held.m_second);
     const bool areRidges = SurfaceRidges::isRidge(bendA) && SurfaceRidges::isRidge(bendB);
-    if (areRidges || bendA > kHeldBend || bendB > kHeldBend) return;
+    if (areRidges || bendA > kRidgeSine || bendB > kRidgeSine) return;
     const auto edgeOf = [](const SoftSurface& surface, int edge)
     {
         const std::array<int, 2>& ends = surface.topology().edges()[edge];
@@ -220,7 +220,7 @@ bool EdgePairSearch::tryNear(const Pair& pair, const NodesFound& nodes, Crossing
     const auto ofSecond = [&](int k) { return nodes.m_ofSecond.depthAside(pair.m_nodes[k], -crossing.m_normal); };
     const double shortest = std::min({ofFirst(0), ofFirst(1), ofSecond(2), ofSecond(3)});
     if (!(crossing.m_gap >= -std::min(m_reach.depth(), 2 * shortest))) return false;
-    return crossing.m_gap >= -kUnprovenDepth * m_reach.m_edge || isFreeWayOut(pair, crossing);
+    return crossing.m_gap >= -kNegligibleLength * m_reach.m_edge || isFreeWayOut(pair, crossing);
 }
 
 // True if nothing lies between edges that have passed each other. Edges on the far sides of two bars have both bars

@@ -6,21 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
 {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRimReach = 1e-3;      // how far a face extends beyond its rim, in edges
-constexpr double kGrooveReach = 0.05;   // how far it extends beyond a concave edge, in edges
-constexpr double kGrooveSine = 0.03;    // sine of the dihedral angle from which on an edge is a groove
-constexpr double kFacingCosine = -0.1;  // largest cosine between a node's normal and a face's that oppose each other
+constexpr double kGrooveReach = 0.05;            // how far it extends beyond a concave edge, in edges
 constexpr double kFacingCosineAtImpact = -0.25;  // that cosine at an impact: grazing faces follow others that are met
                                                  // first
 constexpr double kSeparatingSine = -0.05;        // smallest sine of a body's edges above a separating plane
-constexpr double kSameNormalCosine = 0.99;       // smallest cosine of normals that count as one
-constexpr double kSameWayOutCosine = 0.9;        // smallest cosine of ways out that count as one
 constexpr double kCornerWeight = 2e-3;  // largest barycentric weight that counts as zero, near a corner or edge
 constexpr double kDeepest = 3;          // largest depth along a way out over the distance from the surface
 
@@ -48,7 +45,7 @@ void NodeSurfaceSearch::find(const SoftSurface& nodes, const SoftSurface& faces,
 
 double NodeSurfaceSearch::depthAside(int node, const Vec3& direction) const
 {
-    return m_depth[node] < kInfinity && dot(m_wayOut[node], direction) < kSameWayOutCosine ? m_depth[node] : kInfinity;
+    return m_depth[node] < kInfinity && dot(m_wayOut[node], direction) < kSameNormalCosine ? m_depth[node] : kInfinity;
 }
 
 void NodeSurfaceSearch::forget()
@@ -131,7 +128,8 @@ bool NodeSurfaceSearch::lookAround(Visit& visit)
         visit.m_limit = m_reach.depth();
     else if (visit.m_inside)
         visit.m_limit = std::max(kDeepest * visit.m_distance, m_reach.depth());
-    else if (visit.m_distance < kRimReach * m_reach.m_edge)  // on a rim, rounding decides between inside and outside
+    // on a rim, rounding decides between inside and outside
+    else if (visit.m_distance < kNegligibleLength * m_reach.m_edge)
         visit.m_limit = kGrooveReach * m_reach.m_edge;
     return visit.m_inside || self || visit.m_distance <= m_reach.within() + travel;
 }
@@ -144,9 +142,9 @@ bool NodeSurfaceSearch::placeOf(int triangle, const std::array<double, 3>& weigh
     {
         if (weights[k] >= 0) continue;
         const int edge = m_faces->topology().edgesOf(triangle)[(k + 1) % 3];
-        const bool groove = m_faces->bend(edge) > kGrooveSine;
+        const bool groove = m_faces->bend(edge) > kRidgeSine;
         const double beyond = -weights[k] * height(m_faces->tree().corners(triangle), k);
-        if (beyond > (groove ? kGrooveReach : kRimReach) * m_reach.m_edge) return false;
+        if (beyond > (groove ? kGrooveReach : kNegligibleLength) * m_reach.m_edge) return false;
         place = groove && place != Place::rim ? Place::groove : Place::rim;
     }
     return true;
@@ -284,7 +282,7 @@ void NodeSurfaceSearch::dropContinuations()
     for (Hit& a : m_hits)
         for (const Hit& b : m_hits)
         {
-            if (&a == &b || a.m_dropped || b.m_dropped || dot(a.m_normal, b.m_normal) < kSameNormalCosine) continue;
+            if (&a == &b || a.m_dropped || b.m_dropped || dot(a.m_normal, b.m_normal) < kFlatCosine) continue;
             if (b.m_gap < a.m_gap || (b.m_gap == a.m_gap && b.m_triangle < a.m_triangle)) a.m_dropped = true;
         }
 }

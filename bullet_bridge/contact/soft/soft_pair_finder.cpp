@@ -10,6 +10,7 @@
 #include "bullet_bridge/contact/friction.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
 #include "bullet_bridge/contact/soft/deep_pair_search.h"
+#include "bullet_bridge/geometry/tolerances.h"
 #include "bullet_bridge/joints/node_attachments.h"
 #include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
@@ -19,11 +20,7 @@ namespace bullet_fem
 namespace
 {
 
-constexpr double kPairBand = 0.05;     // width of the contact band over the smaller mean edge [-]
-constexpr double kLittleFall = 0.25;   // largest negligible fall in a step over that edge [-]; see fallsFar()
-constexpr double kPairSlop = 5e-4;     // permitted penetration over the smaller body's size [-]
-constexpr double kBesideCosine = 0.7;  // largest cosine between the normal beside a carrying face and that face's
-constexpr double kSameContact = 0.9;   // smallest cosine between the normals of a contact in consecutive steps
+constexpr double kLittleFall = 0.25;  // largest negligible fall in a step over that edge [-]; see fallsFar()
 
 // Sum of both contact offsets [m]; 0 for self contact.
 double offsetBetween(const FemSoftBody& first, const FemSoftBody& second)
@@ -49,7 +46,7 @@ Vec3 velocityOf(const FemSoftBody& fem)
 ContactReach reachBetween(const FemSoftBody& first, const FemSoftBody& second)
 {
     const double edge = std::min(first.m_surface.meanEdge(), second.m_surface.meanEdge());
-    return {kPairBand * edge + offsetBetween(first, second), edge, fallBetween(first, second, edge)};
+    return {kContactBand * edge + offsetBetween(first, second), edge, fallBetween(first, second, edge)};
 }
 
 SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSide& second, int maxContacts,
@@ -108,12 +105,12 @@ void SoftPairFinder::dropSeams(const SoftPairSide& slider, const SoftPairSide& g
     if (!plane.m_exists) return;
     const Vec3 relative = velocityOf(slider.m_fem) - velocityOf(ground.m_fem);
     const double step = slider.m_fem.m_surface.step();
-    const double slop = kPairSlop * std::min(slider.m_fem.m_surface.size(), ground.m_fem.m_surface.size());
+    const double slop = kSoftSlop * std::min(slider.m_fem.m_surface.size(), ground.m_fem.m_surface.size());
     const auto isBeside = [&](std::size_t k)
     {
         const bool softIsFirst = m_foundOrigins[k].m_kind != SoftPairKind::nodeOfSecond;
         const Vec3 outward = softIsFirst == isFirst ? -m_found[k].m_normal : m_found[k].m_normal;
-        return std::fabs(dot(outward, plane.m_normal)) < kBesideCosine;
+        return std::fabs(dot(outward, plane.m_normal)) < kCarrierCosine;
     };
     const auto isWall = [&](std::size_t k)
     { return plane.m_distance - dot(plane.m_normal, m_found[k].m_point) > kSunk * reach.m_edge; };
@@ -209,7 +206,7 @@ ContactPoint SoftPairFinder::commonOf(const FemSoftBody& first, const FemSoftBod
 {
     const btSoftBody &a = *first.m_softBody, &b = *second.m_softBody;
     ContactPoint common;
-    common.m_slop = kPairSlop * std::min(first.m_surface.size(), second.m_surface.size());
+    common.m_slop = kSoftSlop * std::min(first.m_surface.size(), second.m_surface.size());
     common.m_hardness = std::max(0.0, double(std::min(a.m_cfg.kSHR, b.m_cfg.kSHR)));
     common.m_friction = frictionBetween(a, b);
     common.m_restitution = std::max(0.0, std::min(1.0, double(a.getRestitution()) * b.getRestitution()));
@@ -322,7 +319,7 @@ int SoftPairFinder::remembered(const SoftPairOrigin& origin, const Vec3& normal)
 {
     SoftPairOrigin from = origin;
     if (origin.m_kind != SoftPairKind::edges) from.m_otherFeature = -1;
-    double best = kSameContact;
+    double best = kSameNormalCosine;
     int found = -1;
     const SoftPairOrigin* const end = m_last.m_origins + m_last.m_count;
     for (const SoftPairOrigin* at = std::lower_bound(m_last.m_origins, end, from); at != end; ++at)

@@ -7,6 +7,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
+#include "bullet_bridge/geometry/tolerances.h"
 #include "bullet_bridge/joints/welds.h"
 #include "bullet_bridge/rigid/rigid_proxies.h"
 #include "bullet_fem/fem/common/threads.h"
@@ -21,8 +22,6 @@ namespace
 constexpr double kStillShare = 0.00625;
 constexpr int kFineTriangles = 2000;  // triangles from which on prepareNear() pays off: those of some thousand elements
 
-constexpr double kOneSoftFaceCosine = 0.9;  // smallest cosine of normals of contacts with one face that bends
-
 bool isFine(const SoftSurface& surface)
 {
     return surface.topology().triangleCount() >= kFineTriangles;
@@ -31,7 +30,7 @@ bool isFine(const SoftSurface& surface)
 }  // namespace
 
 SoftPairSearch::SoftPairSearch(const Threads& threads)
-    : m_threads(threads), m_carrying(kOneSoftFaceCosine), m_parts(kParts, Part(m_memory))
+    : m_threads(threads), m_carrying(kSameNormalCosine), m_parts(kParts, Part(m_memory))
 {
 }
 

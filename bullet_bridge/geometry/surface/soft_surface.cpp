@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "bullet_bridge/geometry/tolerances.h"
+
 namespace bullet_fem
 {
 namespace
 {
-
-constexpr double kFlatSurfaceCosine = 0.99;  // smallest cosine of normals that count as one
 
 // An edge of more than two faces is never a ridge; an edge of the boundary is neither ridge nor groove.
 double bendOf(const SoftSurface& surface, int edge)
@@ -144,7 +144,7 @@ bool isFlatEdge(const SoftSurface& surface, int edge)
     const Vec3 normal = edgeNormal(surface, edge);
     bool flat = true;
     surface.topology().visitTrianglesOf(
-        edge, [&](int t) { flat = flat && !(dot(surface.faceNormal(t), normal) < kFlatSurfaceCosine); });
+        edge, [&](int t) { flat = flat && !(dot(surface.faceNormal(t), normal) < kFlatCosine); });
     return flat;
 }
 
@@ -153,7 +153,7 @@ bool isFlatNode(const SoftSurface& surface, int node)
     const Vec3 normal = nodeNormal(surface, node);
     const TriangleRange around = surface.topology().trianglesAt(node);
     return std::none_of(around.begin(), around.end(),
-                        [&](int t) { return dot(surface.faceNormal(t), normal) < kFlatSurfaceCosine; });
+                        [&](int t) { return dot(surface.faceNormal(t), normal) < kFlatCosine; });
 }
 
 double minAlongEdges(const SoftSurface& surface, int node, const Vec3& direction)

@@ -4,6 +4,7 @@
 
 #include "bullet_bridge/geometry/surface/surface_topology.h"
 #include "bullet_bridge/geometry/surface/surface_tree.h"
+#include "bullet_bridge/geometry/tolerances.h"
 
 namespace bullet_fem
 {
@@ -21,7 +22,7 @@ public:
     static constexpr int kSteps = 2;  ///< steps that a ridge's box is swept over: impacts are searched that far ahead
 
     /// True if an edge is convex by more than 1.7 degrees; `bend` as in SoftSurface.
-    static bool isRidge(double bend) { return bend < kRidge; }
+    static bool isRidge(double bend) { return bend < -kRidgeSine; }
 
     /// Assigns each edge to the leaf of the first of its triangles.
     SurfaceRidges(const SurfaceTopology& topology, const SurfaceTree& tree);
@@ -49,8 +50,6 @@ public:
     }
 
 private:
-    static constexpr double kRidge = -0.03;  // largest sine of the dihedral angle of a ridge
-
     void updateNode(const SurfaceTree& tree, const std::vector<double>& bend, int node);
 
     std::vector<Ridge> m_edges;        // all edges, in the order of the tree's triangles
