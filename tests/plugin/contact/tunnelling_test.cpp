@@ -27,8 +27,6 @@ class ShotAtASlab : public testing::TestWithParam<Shot>
 
 TEST_P(ShotAtASlab, StaysOnItsSide)
 {
-    // A shot strains elements by several times their size in a step, and may create energy, which is taken away.
-    constexpr int kFlagsOfShots = BT_FEM_STALE_FACTOR | BT_FEM_PENETRATING | BT_FEM_ENERGY;
     const auto& [coupling, projectile, cellsThick] = GetParam();
     for (const double height : {0.05, 0.3, 0.9, 1.9, 3.0})
         for (const double x : {0.0, 0.013, -0.08})
@@ -43,7 +41,7 @@ TEST_P(ShotAtASlab, StaysOnItsSide)
             {
                 scene.m_world.step();
                 above = std::max(above, facesAbove(soft, rigid.getCenterOfMassPosition()));
-                EXPECT_EQ(scene.m_fem.stepReport(&soft).m_flags & ~kFlagsOfShots, 0);
+                EXPECT_EQ(scene.m_fem.stepReport(&soft).m_flags & ~(BT_FEM_STALE_FACTOR | BT_FEM_PENETRATING), 0);
             }
             EXPECT_EQ(above, 0);
             EXPECT_GT(rigid.getLinearVelocity().z(), -0.02 * projectile.m_speed) << "it was stopped";
