@@ -7,6 +7,7 @@
 
 #include "fem/body/step_coefficients.h"
 #include "fem/body/step_scratch.h"
+#include "fem/elements/patch_frame.h"
 #include "fem/solve/drift.h"
 #include "fem/step/elastic_energy.h"
 #include "fem/step/one_body.h"
@@ -17,9 +18,13 @@ namespace
 {
 
 // Gain of energy that is accepted, as a share of the energy before the step and the work in it [-]: of bodies that roll
-// and swing along chords, and where elements are inside out. Without the second, such bodies gain several times their
-// energy within seconds (EnergyLimit).
-constexpr double kMaxEnergyGain = 1, kMaxGainInsideOut = 0.01;
+// and swing along chords, and of distorted ones. Without the second, these gain several times their energy within
+// seconds (EnergyLimit).
+constexpr double kMaxEnergyGain = 1, kMaxGainOfDistorted = 0.01;
+
+// Root mean square stretch from which on an element is distorted [-]; so is one that is inside out. With 3 bodies of
+// Neo-Hookean material gain energy (EnergyLimit).
+constexpr double kFarStretch = 2;
 
 // Strain by the rounding of positions in single precision, some ten elements from the origin [-]: bodies at rest gain
 // and lose its energy.
@@ -56,9 +61,9 @@ public:
     bool isGentle()
     {
         findLoadEnergy();
-        m_maxGain = kMaxGainInsideOut;
-        if (areShort()) return true;
-        if (isInsideOut()) return false;
+        m_maxGain = kMaxGainOfDistorted;
+        if (areShort() && !m_body.m_model->shape().m_materials.isNonlinear()) return true;
+        if (isDistorted()) return false;
         m_maxGain = kMaxEnergyGain;
         return areShort();
     }
@@ -66,6 +71,8 @@ public:
     // True if the step gains more energy than is accepted.
     bool isExceeded()
     {
+        elastic().assign(m_scratch.m_velocity.begin(), m_scratch.m_velocity.end());
+        removeRigidVelocity(m_body, elastic());
         m_before = m_kinetic + elasticEnergy(m_body, m_state.m_x);
         return excessOf(1) > 1;
     }
@@ -100,7 +107,7 @@ private:
             if (!m_state.m_fixed[i]) m_ofLoads += 0.5 * m_step * m_step / m_state.m_mass[i] * dot(force[i], force[i]);
     }
 
-    // True if the chords cannot gain the accepted energy. Leaves the elastic velocities in elastic() if not.
+    // True if the chords cannot gain the accepted energy by Hooke's law.
     bool areShort()
     {
         std::vector<Vec3>& w = elastic();
@@ -110,13 +117,16 @@ private:
         return areShort(Vec3());
     }
 
-    bool isInsideOut() const
+    // True if an element is inside out, or stretched far.
+    bool isDistorted() const
     {
-        const std::vector<Tet>& tets = m_body.m_model->mesh().tets();
-        const std::vector<Vec3>& x = m_state.m_x;
-        return std::any_of(tets.begin(), tets.end(),
-                           [&x](const Tet& t)
-                           { return dot(x[t[1]] - x[t[0]], cross(x[t[2]] - x[t[0]], x[t[3]] - x[t[0]])) <= 0; });
+        const RestShape& shape = m_body.m_model->shape();
+        for (int e = 0; e < static_cast<int>(shape.m_elements.size()); ++e)
+        {
+            const Mat3 F = deformationGradient(shape, e, m_state.m_x);
+            if (determinant(F) <= 0 || squaredNorm(F) > 3 * kFarStretch * kFarStretch) return true;
+        }
+        return false;
     }
 
     // A displacement gradient s gives an element of stiffness K = (2 mu + lambda) V at most the energy K s^4 / 8.
