@@ -7,6 +7,7 @@
 
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "bullet_fem/bullet_bridge/vectors.h"
+#include "bullet_fem/fem/step/stress.h"
 
 namespace bullet_fem
 {
@@ -42,23 +43,45 @@ RigidProxy ImpactScene::before(int rigidProxy) const
     return proxy;
 }
 
-// Finds the bodies that rebound by their elasticity: with impacts, or a pressed point that approaches fast.
-void ImpactPatches::findMeeting(const ImpactScene& scene, double least)
+double ImpactPatches::impedanceOf(const ImpactScene& scene, int body)
 {
-    m_isMeeting.assign(scene.m_bodies.size(), 0);
-    if (!m_isElastic) return;
-    for (std::size_t b = 0; b < scene.m_bodies.size(); ++b)
-    {
-        m_isMeeting[b] = !scene.m_bodies[b]->m_memory.m_impacts.empty();
-        m_impulses.reserve(scene.m_bodies[b]->m_body.m_state.m_x.size());
-    }
+    double& impedance = m_impedances[body];
+    if (impedance == 0) impedance = waveImpedance(scene.m_bodies[body]->m_body);
+    return impedance;
+}
+
+void ImpactPatches::findStresses(const ImpactScene& scene, double least)
+{
+    m_stresses.assign(scene.m_bodies.size(), 0);
+    m_impedances.assign(scene.m_bodies.size(), 0);
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
-        if (m_isMeeting[c.m_soft.m_body] || !(dot(c.m_impulse, c.m_normal) > 0) || !scene.isPair(c)) continue;
-        if (!(scene.approachOf(c) > least)) continue;
-        m_isMeeting[c.m_soft.m_body] = 1;
-        if (c.m_other.m_body >= 0) m_isMeeting[c.m_other.m_body] = 1;
+        if (!(dot(c.m_impulse, c.m_normal) > 0) || !scene.isPair(c)) continue;
+        const double speed = scene.approachOf(c);
+        if (!(speed > least)) continue;
+        const int body = c.m_soft.m_body, other = c.m_other.m_body;
+        const double own = impedanceOf(scene, body);
+        if (other < 0)
+        {
+            m_stresses[body] = std::max(m_stresses[body], speed * own);
+            continue;
+        }
+        const double its = impedanceOf(scene, other), stress = speed * own * its / (own + its);
+        for (const int side : {body, other}) m_stresses[side] = std::max(m_stresses[side], stress);
     }
+}
+
+// True if a body rebounds by its elasticity: it has impacts, or one begins.
+bool ImpactPatches::anyMeets(const ImpactScene& scene)
+{
+    if (!m_isElastic) return false;
+    bool any = false;
+    for (std::size_t b = 0; b < scene.m_bodies.size(); ++b)
+    {
+        any = any || !scene.m_bodies[b]->m_memory.m_impacts.empty() || m_stresses[b] > 0;
+        m_impulses.reserve(scene.m_bodies[b]->m_body.m_state.m_x.size());
+    }
+    return any;
 }
 
 // The empty patch of a contact. Between two soft bodies, the one of smaller broadphase id keeps the impact.
@@ -82,9 +105,9 @@ ImpactPatch ImpactPatches::patchOf(const ImpactScene& scene, const ContactPoint&
 
 void ImpactPatches::gather(const ImpactScene& scene, double least)
 {
-    findMeeting(scene, least);
+    findStresses(scene, least);
     m_patches.clear();
-    const bool anyMeets = std::find(m_isMeeting.begin(), m_isMeeting.end(), 1) != m_isMeeting.end();
+    const bool anyMeets = this->anyMeets(scene);
     for (const ContactPoint& c : scene.m_problem.m_contacts)
     {
         if (!scene.isPair(c)) continue;

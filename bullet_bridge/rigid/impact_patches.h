@@ -65,6 +65,11 @@ public:
     /// point approaches the other side faster than `least` [m/s].
     void gather(const ImpactScene& scene, double least);
 
+    /// The largest stress of a wave that an impact of this step starts in a body of the scene [Pa]; 0 without impact.
+    /// With the speed v at which a pressed contact closes as the step begins, faster than `least`, v Z Z' / (Z + Z'),
+    /// where Z and Z' are the impedances of both (waveImpedance), and v Z against rigid objects.
+    double stressOf(std::size_t body) const { return m_stresses[body]; }
+
     const std::vector<ImpactPatch>& patches() const { return m_patches; }
 
     /// Adds the elastic response of both sides of a patch. False if it is not known.
@@ -72,13 +77,15 @@ public:
 
 private:
     static ImpactPatch patchOf(const ImpactScene& scene, const ContactPoint& contact);
-    void findMeeting(const ImpactScene& scene, double least);
+    double impedanceOf(const ImpactScene& scene, int body);
+    void findStresses(const ImpactScene& scene, double least);
+    bool anyMeets(const ImpactScene& scene);
     bool addSide(const ImpactScene& scene, const ImpactPatch& patch, int body, PatchResponse& response);
 
     const bool m_isElastic;
     std::vector<ImpactPatch> m_patches;
-    std::vector<unsigned char> m_isMeeting;  // per body: it has impacts, or a point that approaches fast
-    std::vector<Vec3> m_impulses;            // per node of one body, by a unit impulse on the patch [-]
+    std::vector<double> m_stresses, m_impedances;  // per body; impedance 0: not known yet
+    std::vector<Vec3> m_impulses;                  // per node of one body, by a unit impulse on the patch [-]
 };
 
 }  // namespace bullet_fem

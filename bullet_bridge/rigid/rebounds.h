@@ -45,6 +45,9 @@ public:
     void note(const ContactProblem& problem, const std::vector<FemSoftBody*>& bodies, const RigidProxies& rigid,
               double step, double least);
 
+    /// See ImpactPatches; of the last note().
+    double impactStressOf(std::size_t body) const { return m_patches.stressOf(body); }
+
     /// Call at the end of the step, after bodies have moved. Applies due rebounds and forgets impacts that are over.
     /// `bodies` are all bodies of note() in this step; `step` [s]. Clears the rigid proxies of `rigid`.
     void give(const std::vector<FemSoftBody*>& bodies, WorldObjects& world, RigidProxies& rigid, double step);

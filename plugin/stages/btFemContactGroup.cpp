@@ -227,7 +227,6 @@ bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, b
 void btFemContactGroup::noteImpacts()
 {
     m_rebounds.note(m_problem, m_bodies, m_rigid, m_step, kRestitutionVelocity);
-    m_impactStresses.find({m_problem, m_bodies, m_rigid, m_step}, kRestitutionVelocity);
 }
 
 void btFemContactGroup::solve()

@@ -10,7 +10,6 @@
 #include "bullet_bridge/contact/soft/soft_pair_search.h"
 #include "bullet_bridge/joints/soft_joints.h"
 #include "bullet_bridge/rigid/bullet_rows.h"
-#include "bullet_bridge/rigid/impact_stress.h"
 #include "bullet_bridge/rigid/multibody_rows.h"
 #include "bullet_bridge/rigid/rebounds.h"
 #include "bullet_bridge/rigid/rigid_contacts.h"
@@ -161,7 +160,6 @@ private:
     bullet_fem::MultiBodyRows m_multiBodyRows;
     std::vector<const btCollisionObject*> m_met;  // scratch: rigid objects in contact or held
     bullet_fem::Rebounds m_rebounds;
-    bullet_fem::ImpactStresses m_impactStresses;
     bullet_fem::ContactProblem m_problem;
     bullet_fem::ContactSolver m_solver;
     btFemTogether m_together;

@@ -179,7 +179,7 @@ void btFemContactGroup::reportBody(std::size_t b, const ContactReport& report)
     record.m_reports.m_step.m_contactIterations = report.m_iterations;
     record.m_reports.m_step.m_contactViolation = static_cast<btScalar>(report.m_violation);
     record.m_reports.m_step.m_deepestPenetration = 0;
-    record.m_reports.m_step.m_impactStress = static_cast<btScalar>(m_impactStresses.of(b));
+    record.m_reports.m_step.m_impactStress = static_cast<btScalar>(m_rebounds.impactStressOf(b));
     if (!report.m_converged) record.m_reports.m_step.m_flags |= BT_FEM_NOT_CONVERGED;
     for (std::size_t k = 0; k < memory.m_contacts.size(); ++k)
     {

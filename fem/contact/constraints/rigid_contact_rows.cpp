@@ -54,7 +54,7 @@ bool ContactRows::settleRigidContacts()
     const std::size_t first = m_problem->m_contacts.size() + m_problem->m_joints.size();
     const std::size_t end = first + m_problem->m_rigidContacts.size();
     double most = 0, largest = 1;  // maximum changes, of all sweeps and of the last [m/s]
-    for (int sweep = 0; sweep < kSettlingSweeps && largest > kTouchesSettled * most; ++sweep)
+    for (int sweep = 0; sweep < kMaxOtherSweeps && largest > kTouchesSettled * most; ++sweep)
     {
         largest = 0;
         for (std::size_t k = first; k < end; ++k)

@@ -41,6 +41,9 @@ void ContactProblem::clear()
 namespace
 {
 
+constexpr double kNoJointSpeed = 1e-6;      // share of the speed scale that is rounding [-]
+constexpr double kRoundingOfOthers = 1e-6;  // rows of others may be solved in single precision [m/s]
+
 // Progress of the sweeps of an outer iteration.
 struct SweepProgress
 {
@@ -51,7 +54,7 @@ struct SweepProgress
     {
         m_best = m_sweeps % kWindow == 0 ? change : std::min(m_best, change);
         if (++m_sweeps % kWindow != 0) return false;
-        const bool stalled = m_sweeps > kWindow && m_best > kStallRatio * m_bestBefore;
+        const bool stalled = m_sweeps > kWindow && m_best > kStandstill * m_bestBefore;
         m_bestBefore = m_best;
         return stalled;
     }
@@ -101,7 +104,7 @@ bool ContactSolver::Scratch::settleRigid()
 
 double residualFloor(double contactTolerance, double solveTolerance)
 {
-    return std::clamp(kResidualShare * contactTolerance / solveTolerance, kFinestFloor, 1.0);
+    return std::clamp(kResidualShare * contactTolerance / solveTolerance, kJointTolerance, 1.0);
 }
 
 ContactSolver::ContactSolver() : m_scratch(std::make_unique<Scratch>()) {}
@@ -139,7 +142,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     const bool joints = !problem.m_joints.empty();
     const auto holdsSoft = [](const Joint& joint) { return joint.m_a.m_body >= 0 || joint.m_b.m_body >= 0; };
     s.m_holdsSoft = std::any_of(problem.m_joints.begin(), problem.m_joints.end(), holdsSoft);
-    s.m_floor = s.m_holdsSoft ? kFinestFloor : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
+    s.m_floor = s.m_holdsSoft ? kJointTolerance : residualFloor(settings.m_tolerance, settings.m_step.m_tolerance);
     s.m_rows.assemble(problem, settings, s.m_floor);
     s.m_sweeps.begin();
     s.m_gcr.begin();
@@ -164,7 +167,7 @@ void ContactSolver::begin(ContactProblem& problem, const ContactSettings& settin
     // A warm start that is balanced up to one per cent may leave a stiff body a thousand times the missing speed.
     s.m_rows.setSpeedScale(std::min(missing, std::max(s.m_found.m_wanted, s.m_gcr.largestSpeed())));
     const double shareOfEdge = s.m_rows.share(kErrorOfEdge * s.m_rows.shortestEdge() / settings.m_step.m_step);
-    s.m_settings.m_tolerance = std::min(settings.m_tolerance, std::max(shareOfEdge, kFinestTolerance));
+    s.m_settings.m_tolerance = std::min(settings.m_tolerance, std::max(shareOfEdge, kFinestRest));
     s.m_error = errorNow();
     s.m_goal = std::max(kRestShare * s.m_settings.m_tolerance, std::min(s.m_settings.m_tolerance, kFinestRest));
     s.m_settings.m_tolerance = std::clamp(kForcing * s.m_error, s.m_goal, s.m_settings.m_tolerance);
@@ -231,10 +234,12 @@ bool ContactSolver::isBest() const
     return m_scratch->m_isBest;
 }
 
+// A step never ends with impulses that leave more speed than at its beginning, a relative error of some 1, if an
+// earlier outer iteration left less: jams of overlapping cubes would be thrown apart.
 bool ContactSolver::shouldRollBack() const
 {
     const Scratch& s = *m_scratch;
-    return !s.m_empty && s.m_left > std::max(kMuchWorse * s.m_best, kRollBackRatio);
+    return !s.m_empty && !s.m_isBest && s.m_left > 1;
 }
 
 void ContactSolver::restoreBest()
@@ -251,8 +256,8 @@ bool ContactSolver::needsOuterIteration() const
     const Scratch& s = *m_scratch;
     if (s.m_empty) return false;
     const int rounds = s.m_report.m_rounds;
-    const int most = (errorOfJoints() > kJointTolerance ? kMoreRounds : 1) * s.m_settings.m_maxRounds;
-    return rounds < s.m_settings.m_rounds || (rounds < most && s.m_error > s.m_goal && !s.m_stalled);
+    return rounds < s.m_settings.m_rounds ||
+           (rounds < s.m_settings.m_maxRounds && s.m_error > s.m_goal && !s.m_stalled);
 }
 
 bool ContactSolver::sweep(double others)
@@ -290,7 +295,7 @@ void ContactSolver::correct(bool steady)
     ++s.m_report.m_rounds;
     s.m_progress = {};
     if (s.m_isCalm) s.m_sweeps.end();
-    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kCloser * s.m_floor, kFinestFloor);
+    if (s.m_report.m_rounds > kUsualRounds) s.m_floor = std::max(kResidualShare * s.m_floor, kJointTolerance);
     if (s.m_rows.apply(s.m_floor, steady, s.m_report)) s.m_sweeps.joints().reform();
     s.m_sweeps.measure();
     s.m_gcr.look(s.m_othersMoved);
@@ -300,10 +305,8 @@ void ContactSolver::correct(bool steady)
     s.m_found = s.m_sweeps.look();
     s.m_error = errorNow();
     s.m_goal = s.m_settings.m_tolerance;
-    const double share = s.m_rows.isTooSoft() ? kStandstillWhereSoft : kStandstill;
-    const double small = s.m_rows.isTooSoft() ? kSmallErrorWhereSoft : kSmallError;
-    s.m_stalled = s.m_isAlone && s.m_report.m_rounds > s.m_settings.m_rounds + 1 && s.m_error > share * before &&
-                  s.m_error < small && errorOfJoints() <= kJointTolerance;
+    s.m_stalled = s.m_isAlone && s.m_report.m_rounds > s.m_settings.m_rounds + 1 && !s.m_rows.isTooSoft() &&
+                  s.m_error > kStandstill * before && s.m_error < kSmallError && errorOfJoints() <= kJointTolerance;
     noteBest();
 }
 

@@ -255,13 +255,13 @@ double JointSystem::missBy(const Part& part)
     return largest;
 }
 
-// A factor of an earlier step leaves the single-precision error of the rotated W; if it leaves more, as for a nearly
-// singular system, it is not used again in this step.
+// A factor of an earlier step leaves the single-precision error of the rotated W, for the next sweep; if it leaves
+// more, as for a nearly singular system, it is not used again in this step.
 double JointSystem::refine(Part& part, double missed)
 {
     const double left = missBy(part);
-    if (!(left > std::max(kNothing * m_rows.speedScale(), kRefined * missed))) return 0;
-    for (int k = part.m_begin; k < part.m_end && !(left <= kMisleads * missed); ++k)
+    if (!(left > std::max(kNothing * m_rows.speedScale(), kMisleads * missed))) return 0;
+    for (int k = part.m_begin; k < part.m_end; ++k)
         if (m_turned.has(k)) dropTurned(part, k);
     answer(part, m_change);
     const double largest = takeChanges(part);

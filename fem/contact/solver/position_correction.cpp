@@ -12,10 +12,10 @@ namespace bullet_fem
 namespace
 {
 
-// A tenth of the contact tolerance, within bounds.
+// A tenth of the contact tolerance, within a bound.
 double pushTolerance(double contactTolerance)
 {
-    return std::clamp(0.1 * contactTolerance, kPushTolerance, kLoosePushTolerance);
+    return std::max(0.1 * contactTolerance, kPushTolerance);
 }
 
 // Separation speed that corrects a penetration [m/s].
@@ -186,7 +186,7 @@ int PositionCorrection::push()
     m_rows.setSpeedScale(m_sweeps.look().m_wanted);
     int sweeps = 1;
     const double tolerance = pushTolerance(m_rows.settings().m_tolerance);
-    for (; m_sweeps.sweep(tolerance) && sweeps < kMaxSweepsOfPush; ++sweeps)
+    for (; m_sweeps.sweep(tolerance) && sweeps < kMaxOtherSweeps; ++sweeps)
         if (m_sweeps.runsAway()) m_sweeps.letGo();
     std::vector<RigidProxy>& rigidProxies = m_rows.problem().m_rigidProxies;
     for (std::size_t k = 0; k < rigidProxies.size(); ++k)

@@ -31,7 +31,8 @@ void RotatedAnchorFactor::find(int first, const std::vector<unsigned char>& isHe
         if (m_nodeOf[run.m_begin] < 0) continue;
         while (run.m_end < count && m_nodeOf[run.m_end] >= 0 && row(run.m_end).m_a.m_body == body) ++run.m_end;
         const int length = run.m_end - run.m_begin;
-        if (length == m_jointsOf[body] && length >= kMinHeldNodes && length <= kMaxHeldNodes) addRun(run);
+        const double work = EnvelopeFactor::work(length) * length / 3;
+        if (length == m_jointsOf[body] && length >= kMinHeldNodes && work <= kMaxJointWork) addRun(run);
     }
 }
 

@@ -48,7 +48,7 @@ void TruncatedNewton::begin()
     m_of.reserve(m_rows.rows().size());
     m_waited = 0;
     m_interval = kMinInterval;
-    m_budget = kFirstBudget;
+    m_budget = kBudget;
     m_changeThen = 0;
 }
 
@@ -57,8 +57,8 @@ bool TruncatedNewton::isDue(double change, double tolerance)
     if (m_changeThen > 0)
     {
         const bool pays = change <= kPays * m_changeThen;
-        m_interval = pays ? std::max(m_interval / 2, kMinInterval) : std::min(2 * m_interval, kMaxInterval);
-        m_budget = pays ? std::min(2 * m_budget, kMaxBudget) : std::max(m_budget / 2, kMinBudget);
+        m_interval = pays ? std::max(m_interval / 2, kMinInterval) : 2 * m_interval;
+        m_budget = pays ? std::min(2 * m_budget, 8 * kBudget) : std::max(m_budget / 2, kBudget / 2);
     }
     m_changeThen = 0;
     if (++m_waited == 1) m_changeFirst = change;
@@ -74,12 +74,7 @@ bool TruncatedNewton::step(const std::vector<int>& working, double change, doubl
     m_changeThen = change;
     m_left = m_budget;
     findFree(working);
-    for (int pass = 0; pass < kPasses; ++pass)
-    {
-        solve(working);
-        if (!project(working)) break;
-        measure(working);
-    }
+    for (solve(working); project(working); solve(working)) measure(working);
     search(working);
     return true;
 }

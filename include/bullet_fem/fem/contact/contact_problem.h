@@ -160,7 +160,7 @@ struct ContactSettings
 {
     StepSettings m_step;  ///< settings of the corrective solves
     int m_rounds = 1;     ///< minimum number of outer iterations, in [1, 100]
-    /// Maximum number, >= m_rounds, while the error exceeds m_tolerance; twice as many for joints.
+    /// Maximum number, >= m_rounds, while the error exceeds m_tolerance.
     int m_maxRounds = 10;
     int m_sweeps = 50;  ///< maximum number of sweeps per outer iteration, in [1, 1000]
     /// Velocity error at which outer iterations end, relative to the speed that the loads give a body in a step, or to

@@ -59,7 +59,7 @@ public:
     /// True if the last begin or correct left the smallest error so far: the caller saves the impulses of its own rows.
     bool isBest() const;
 
-    /// True if the last outer iteration left a much larger error than the best one. The caller then restores the saved
+    /// True if the last outer iteration left a large error, and an earlier one less. The caller then restores the saved
     /// impulses of its own rows and calls restoreBest, or leaves all impulses unchanged.
     bool shouldRollBack() const;
 
