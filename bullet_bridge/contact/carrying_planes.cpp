@@ -34,14 +34,15 @@ void CarryingPlanes::find()
     {
         const int id = m_pushes[m_order[first]].m_objectId;
         while (end < m_order.size() && m_pushes[m_order[end]].m_objectId == id) ++end;
-        m_carried.push_back({id, planeOf(first, end), sideOf(first, end)});
+        m_carried.push_back({id, {}, {}, sideOf(first, end)});
+        findPlane(first, end, m_carried.back());
     }
 }
 
 // The plane of one object's pushes, a range of m_order.
-CarryingPlane CarryingPlanes::planeOf(std::size_t first, std::size_t end) const
+void CarryingPlanes::findPlane(std::size_t first, std::size_t end, Carried& carried) const
 {
-    CarryingPlane plane;
+    CarryingPlane& plane = carried.m_plane;
     double sum = 0, largest = 0, onFace = 0;
     int count = 0;
     Vec3 normal, foot, main;
@@ -63,10 +64,10 @@ CarryingPlane CarryingPlanes::planeOf(std::size_t first, std::size_t end) const
         foot += push.m_size * push.m_foot;
     }
     plane.m_exists = count >= kFewest && onFace >= kCarriedShare * sum;
-    if (!plane.m_exists) return plane;
+    if (!plane.m_exists) return;
     plane.m_normal = (1 / norm(normal)) * normal;
-    plane.m_distance = dot(plane.m_normal, foot) / onFace;
-    return plane;
+    carried.m_foot = (1 / onFace) * foot;
+    plane.m_distance = dot(plane.m_normal, carried.m_foot);
 }
 
 // The side of one object's pushes, a range of m_order.
@@ -93,12 +94,15 @@ const CarryingPlanes::Carried* CarryingPlanes::find(int objectId) const
     return at == m_carried.end() || at->m_objectId != objectId ? nullptr : &*at;
 }
 
-CarryingPlane CarryingPlanes::planeOf(int objectId, const Vec3& way) const
+CarryingPlane CarryingPlanes::planeOf(int objectId, const RigidMotion& motion, double step) const
 {
     const Carried* carried = find(objectId);
     if (!carried) return {};
     CarryingPlane plane = carried->m_plane;
-    plane.m_distance += dot(plane.m_normal, way);
+    const Vec3 turn = step * motion.m_angularVelocity, way = step * motion.m_linearVelocity;
+    const Vec3 arm = carried->m_foot - (motion.m_center - way);
+    plane.m_normal = unit(plane.m_normal + cross(turn, plane.m_normal));
+    plane.m_distance = dot(plane.m_normal, carried->m_foot + way + cross(turn, arm));
     return plane;
 }
 

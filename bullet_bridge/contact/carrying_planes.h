@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bullet_fem/fem/common/vec3.h"
+#include "bullet_bridge/geometry/shapes/swept_distance.h"
 
 namespace bullet_fem
 {
@@ -50,8 +50,9 @@ public:
     /// Call after the last add().
     void find();
 
-    /// The plane of an object that has moved on by `way` since [m], if one face carries it.
-    CarryingPlane planeOf(int objectId, const Vec3& way) const;
+    /// The plane of an object that has moved for `step` [s] since, if one face carries it; `motion` has its present
+    /// centre.
+    CarryingPlane planeOf(int objectId, const RigidMotion& motion, double step) const;
 
     /// The side on which soft bodies carry an object, if they press little on others.
     CarryingSide sideOf(int objectId) const;
@@ -61,13 +62,14 @@ private:
     {
         int m_objectId;
         CarryingPlane m_plane;
+        Vec3 m_foot;  // mean of the points on the plane [m]
         CarryingSide m_side;
     };
 
     const Carried* find(int objectId) const;
     CarryingSide sideOf(std::size_t first, std::size_t end) const;
 
-    CarryingPlane planeOf(std::size_t first, std::size_t end) const;
+    void findPlane(std::size_t first, std::size_t end, Carried& carried) const;
 
     double m_oneFaceCosine;
     std::vector<Push> m_pushes;

@@ -184,7 +184,9 @@ CarryingPlane RigidSearch::carryingPlaneOf(const btCollisionObject& object, cons
                                            double step) const
 {
     if (norm(rigidProxy.m_linearVelocity) == 0) return {};
-    return m_carrying.planeOf(broadphaseId(object), step * rigidProxy.m_linearVelocity);
+    RigidMotion motion = {rigidProxy.m_center, rigidProxy.m_linearVelocity, rigidProxy.m_angularVelocity};
+    if (object.isKinematicObject()) motion.m_center -= step * motion.m_linearVelocity;
+    return m_carrying.planeOf(broadphaseId(object), motion, step);
 }
 
 void RigidSearch::removeGone(FemSoftBody& fem, int body) const

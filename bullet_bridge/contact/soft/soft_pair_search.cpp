@@ -185,8 +185,8 @@ void SoftPairSearch::listOverlaps(const std::vector<FemSoftBody*>& bodies)
 
 SoftPairSide SoftPairSearch::sideOf(FemSoftBody& fem, int index) const
 {
-    const Vec3 way = fem.m_surface.step() * fem.m_search.m_meanMotion.m_velocity;
-    return {fem, index, m_carrying.planeOf(broadphaseId(*fem.m_softBody), way)};
+    const RigidMotion motion = {{}, fem.m_search.m_meanMotion.m_velocity, {}};
+    return {fem, index, m_carrying.planeOf(broadphaseId(*fem.m_softBody), motion, fem.m_surface.step())};
 }
 
 void SoftPairSearch::findPairs(const std::vector<FemSoftBody*>& bodies, int maxContacts, int part)
