@@ -54,6 +54,7 @@ Rebounds::Rebounds(bool isElastic) : m_patches(isElastic), m_groups(m_patches)
     m_sides.reserve(2 * kUsualRebounds);
     m_proxyOf.reserve(2 * kUsualRebounds);
     m_problem.m_rigidProxies.reserve(4 * kUsualRebounds);
+    m_problem.m_responses.reserve(2 * kUsualRebounds);
     m_problem.m_contacts.reserve(kUsualRebounds);
     m_before.reserve(4 * kUsualRebounds);
     m_rebounds.reserve(kUsualRebounds);

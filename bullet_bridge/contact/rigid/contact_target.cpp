@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
 #include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "BulletSoftBody/btSoftBody.h"
@@ -62,6 +63,13 @@ Vec3 fallOf(const FemSoftBody& fem, const ContactTarget& target)
 }
 
 }  // namespace
+
+btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
+{
+    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
+    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
+    return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
+}
 
 void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
 {

@@ -89,6 +89,9 @@ private:
     std::vector<RigidProxy> m_starts;  // proxies of kinematic objects as the step begins, of rolling ones as advanced
 };
 
+/// The body's broad phase, with its pairs; null if it is not known.
+btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem);
+
 /// The target's motion within the step.
 SweptShape sweptShapeOf(const ContactTarget& target);
 

@@ -6,7 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
+#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
+#include "BulletDynamics/Dynamics/btRigidBody.h"
+#include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 #include "bullet_bridge/geometry/tolerances.h"
@@ -26,8 +30,9 @@ struct Paths
     const ContactTarget& m_target;
     const CarriedMotion& m_carried;
     const SweptShape& m_swept;
-    double m_speed;      ///< largest speed of the surface relative to the leaf [m/s]
-    double m_clearance;  ///< distance that still counts as meeting [m]
+    const SweptShape* m_stopped;  ///< the target if others stop it; null: none can
+    double m_speed;               ///< largest speed of the surface relative to the leaf [m/s]
+    double m_clearance;           ///< distance that still counts as meeting [m]
 };
 
 // Path of a feature within the step: a vertex with carriers starts lifted off them, and does not enter them. `held`:
@@ -48,12 +53,13 @@ SweptFeature pathOf(const FemSoftBody& fem, const CarriedMotion& carried, const 
     return path;
 }
 
-bool meetsIfHeld(const Paths& search, const Triangle& nodes, const Vec3& held, SweptContact& contact)
+bool meetsIfHeld(const Paths& search, const SweptShape& swept, const Triangle& nodes, const Vec3& held,
+                 SweptContact& contact)
 {
     const FemSoftBody& fem = search.m_scope.fem();
     const SweptFeature path = pathOf(fem, search.m_carried, nodes, held, search.m_target.m_step);
     const double offset = fem.m_settings.m_contactOffset + search.m_clearance;
-    if (!mayMeet(search.m_swept, path, offset) || !sweptDistance(search.m_swept, path, offset, contact)) return false;
+    if (!mayMeet(swept, path, offset) || !sweptDistance(swept, path, offset, contact)) return false;
     SurfaceDistance& d = contact.m_surface;
     d.m_gap += search.m_clearance;
     if (search.m_target.m_carrying->m_exists && contact.m_time > 0 && !faces(fem, nodes, d.m_normal)) return false;
@@ -67,14 +73,51 @@ bool meetsIfHeld(const Paths& search, const Triangle& nodes, const Vec3& held, S
     return true;
 }
 
+// True if a target can move and is on joints, or something else than the body may touch it.
+bool mayBeStopped(const FemSoftBody& fem, const ContactTarget& target)
+{
+    if (!target.m_motion->canMove()) return false;
+    const btRigidBody* rigid = btRigidBody::upcast(target.m_object);
+    if (rigid == nullptr || rigid->getNumConstraintRefs() > 0) return true;
+    btBroadphaseInterface* broadphase = broadphaseOf(fem);
+    if (broadphase == nullptr) return false;
+    const btBroadphaseProxy *own = target.m_object->getBroadphaseHandle(),
+                            *body = fem.m_softBody->getBroadphaseHandle();
+    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i)
+    {
+        const btBroadphaseProxy *first = pairs[i].m_pProxy0, *second = pairs[i].m_pProxy1;
+        if ((first == own && second != body) || (second == own && first != body)) return true;
+    }
+    return false;
+}
+
+// True if a feature meets a movable target that others stop within the step, while the target keeps ahead of it in free
+// motion.
+bool meetsIfStopped(const Paths& search, const Triangle& nodes, SweptContact& contact)
+{
+    const ContactTarget& target = search.m_target;
+    SweptContact met;
+    if (search.m_stopped == nullptr || !meetsIfHeld(search, *search.m_stopped, nodes, {}, met)) return false;
+    const FemSoftBody& fem = search.m_scope.fem();
+    const SurfaceDistance& d = met.m_surface;
+    const Vec3 point = interpolated(fem.surfacePosition(), nodes, d.m_barycentric);
+    const Vec3 relative =
+        interpolated(fem.surfaceVelocity(), nodes, d.m_barycentric) - target.m_motion->velocityAt(point);
+    if (!(met.m_time > 0 && d.m_gap + target.m_step * dot(d.m_normal, relative) >= 0)) return false;
+    contact = met;
+    return true;
+}
+
 // True if a node (three equal indices), edge (first and last equal) or triangle meets a target within the step, in free
-// motion or with the fall of one side removed. Pairs that overlap as the step begins met before it.
+// motion, with the fall of one side removed, or if others stop the target. Pairs that overlap as the step begins met
+// before it.
 bool meets(const Paths& search, const Triangle& nodes, SweptContact& contact)
 {
+    const auto meetsWith = [&](const Vec3& held) { return meetsIfHeld(search, search.m_swept, nodes, held, contact); };
     const Vec3 given = (1 / search.m_target.m_step) * search.m_target.m_fall;
-    if (meetsIfHeld(search, nodes, {}, contact)) return true;
-    if (norm(given) == 0) return false;
-    return meetsIfHeld(search, nodes, -given, contact) || meetsIfHeld(search, nodes, given, contact);
+    return meetsWith({}) || (norm(given) > 0 && (meetsWith(-given) || meetsWith(given))) ||
+           meetsIfStopped(search, nodes, contact);
 }
 
 // Sets the levers of a contact that is met later in the step to its place at that time, but not those of a nearby
@@ -155,7 +198,8 @@ void confirmOnPaths(const SearchScope& scope, const ContactTarget& target, const
         const int feature = near.origins()[k].m_feature;
         const Triangle corners = cornersOf(fem, target, feature);
         SweptContact contact;
-        if (!meets({scope, target, filter.carried(), *swept, 0, kNegligibleLength * scope.m_edge}, corners, contact))
+        if (!meets({scope, target, filter.carried(), *swept, nullptr, 0, kNegligibleLength * scope.m_edge}, corners,
+                   contact))
             continue;
         if (dot(contact.m_surface.m_normal, near.points()[k].m_normal) > kSameNormalCosine)
             keepNear(near, filter, k, list);
@@ -174,7 +218,9 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
     const double spin = norm(swept.m_motion.m_angularVelocity) * swept.m_spinRadius;
     const double fall = norm(target.m_fall);
     const double fastest = fastestVertex(fem, swept.m_motion.m_linearVelocity) + fall / target.m_step;
-    const Paths search = {scope, target, filter.carried(), swept, fastest + spin, 0};
+    const SweptShape stopped(*target.m_shape, {target.m_motion->m_center, {}, {}}, target.m_step);
+    const Paths search = {
+        scope, target, filter.carried(), swept, mayBeStopped(fem, target) ? &stopped : nullptr, fastest + spin, 0};
     scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_settings.m_contactOffset + fall});
     std::size_t next = target.m_first;  // in near
     for (int i : scope.vertices())

@@ -24,14 +24,6 @@ namespace
 
 constexpr double kOneFaceCosine = 0.9999;  // smallest cosine of the normals of contacts with one flat face
 
-// Null if the body's broad phase is not known.
-btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
-{
-    const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
-    btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
-    return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
-}
-
 // Moves a leaf back to the start of the step; `present` is the present centre of the object.
 void moveBack(ShapeLeaf& leaf, const RigidProxy& rigidProxy, const Vec3& present, double step)
 {
