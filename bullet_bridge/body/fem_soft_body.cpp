@@ -111,7 +111,12 @@ void FemSoftBody::sizeScratch()
 void FemSoftBody::setSkin(std::shared_ptr<const CollisionSkin> skin, std::shared_ptr<ComplianceCache> compliance)
 {
     m_surface = skin ? SoftSurface(skin->rest()) : SoftSurface(boundaryOf(m_body.m_model->mesh()));
-    if (skin || m_skin) m_memory.m_sheetSides.clear();
+    if (skin || m_skin)
+    {
+        m_memory.m_sheetSides.clear();
+        m_memory.m_solids.clear();
+        m_memory.m_positions.clear();
+    }
     m_skin = std::move(skin);
     m_skinMotion.m_position.resize(m_skin ? m_surface.topology().vertexCount() : 0);
     m_skinMotion.m_velocity.resize(m_skinMotion.m_position.size());

@@ -17,6 +17,7 @@
 #include "bullet_bridge/body/held_joint.h"
 #include "bullet_bridge/body/model_library.h"
 #include "bullet_bridge/body/topology_marks.h"
+#include "bullet_bridge/geometry/shapes/shape_distance.h"
 #include "bullet_bridge/geometry/surface/noted_place.h"
 #include "bullet_bridge/geometry/surface/soft_surface.h"
 #include "bullet_fem/fem/contact/contact_solver.h"
@@ -56,6 +57,18 @@ struct SheetSide
     {
         if (m_objectId != b.m_objectId) return m_objectId < b.m_objectId;
         return m_leaf != b.m_leaf ? m_leaf < b.m_leaf : m_node < b.m_node;
+    }
+};
+
+/// A convex shape that can move, at the last contact search.
+struct SolidPlace
+{
+    int m_objectId = 0, m_leaf = 0;  ///< as in ContactOrigin
+    Pose m_pose;
+
+    bool operator<(const SolidPlace& b) const
+    {
+        return m_objectId != b.m_objectId ? m_objectId < b.m_objectId : m_leaf < b.m_leaf;
     }
 };
 
@@ -125,6 +138,8 @@ struct ContactMemory
     std::vector<ContactPoint> m_contacts;  ///< contacts of the last step
     std::vector<ContactOrigin> m_origins;  ///< one per contact, ascending
     std::vector<SheetSide> m_sheetSides;   ///< of the last step, ascending
+    std::vector<SolidPlace> m_solids;      ///< near the body in the last step, ascending
+    std::vector<Vec3> m_positions;         ///< of the collision surface's vertices then [m]; empty: no solids
     std::vector<Impact> m_impacts;         ///< collisions that are not over
     NotedPlace m_place;                    ///< of the collision surface at the last soft contact search
 };

@@ -202,6 +202,20 @@ void restoreJoints(const ContactSnapshot& s, const WorldIds& world, HeldJoints& 
         joints.m_lastId = std::max(joints.m_lastId, a.m_id);
 }
 
+void checkSolids(const ContactSnapshot& s, const FemSoftBody& fem)
+{
+    for (const SolidPlace& solid : s.m_solids)
+    {
+        const Mat3& rotation = solid.m_pose.m_rotation;
+        checkSane("the pose of a solid", solid.m_pose.m_origin, rotation.column(0), rotation.column(1),
+                  rotation.column(2));
+    }
+    const std::size_t vertices = fem.surfacePosition().size();
+    if (!s.m_positions.empty() && s.m_positions.size() != vertices)
+        reject("positions of ", s.m_positions.size(), " vertices are noted, not of 0 or of ", vertices);
+    for (const Vec3& position : s.m_positions) checkSane("a noted position", position);
+}
+
 }  // namespace
 
 void checkNodeCount(int count)
@@ -216,6 +230,8 @@ ContactSnapshot contactSnapshotOf(const FemSoftBody& fem, const WorldIds& world)
     s.m_contacts = fem.m_memory.m_contacts;
     s.m_origins = fem.m_memory.m_origins;
     s.m_sheetSides = fem.m_memory.m_sheetSides;
+    s.m_solids = fem.m_memory.m_solids;
+    s.m_positions = fem.m_memory.m_positions;
     for (const Impact& impact : fem.m_memory.m_impacts) s.m_impacts.push_back({impact, world.idOf(impact.m_other)});
     for (const HeldJoint& joint : fem.m_joints.m_now)
     {
@@ -245,6 +261,7 @@ void check(const ContactSnapshot& s, const FemSoftBody& fem, const WorldIds& wor
     for (const ContactOrigin& origin : s.m_origins)
         if (origin.m_feature < 0) reject("the feature of a contact is ", origin.m_feature, ", below 0");
     for (const SheetSide& side : s.m_sheetSides) checkSane("a sheet's side", side.m_position, side.m_safe);
+    checkSolids(s, fem);
     for (const ImpactSnapshot& impact : s.m_impacts) checkImpact(impact.m_impact, fem, world.bodyOf(impact.m_other));
     for (const HeldSnapshot& held : s.m_held) checkHeld(held.m_joint, fem);
     for (const AttachmentSnapshot& a : s.m_attachments) checkAttachment(a, fem, world);
@@ -270,6 +287,8 @@ void restore(const ContactSnapshot& s, const WorldIds& world, FemSoftBody& fem)
         memory.m_origins.back().m_object = object;
     }
     memory.m_sheetSides.assign(s.m_sheetSides.begin(), s.m_sheetSides.end());
+    memory.m_solids.assign(s.m_solids.begin(), s.m_solids.end());
+    memory.m_positions.assign(s.m_positions.begin(), s.m_positions.end());
     memory.m_impacts.clear();
     for (const ImpactSnapshot& impact : s.m_impacts)
     {

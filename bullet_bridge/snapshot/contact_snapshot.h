@@ -47,6 +47,8 @@ struct ContactSnapshot
     std::vector<ContactPoint> m_contacts;
     std::vector<ContactOrigin> m_origins;  ///< their pointers are not saved
     std::vector<SheetSide> m_sheetSides;
+    std::vector<SolidPlace> m_solids;
+    std::vector<Vec3> m_positions;
     std::vector<ImpactSnapshot> m_impacts;
     std::vector<HeldSnapshot> m_held;
     std::vector<AttachmentSnapshot> m_attachments;
@@ -103,6 +105,12 @@ void transfer(Bytes& bytes, SheetSide& s)
 }
 
 template <class Bytes>
+void transfer(Bytes& bytes, SolidPlace& s)
+{
+    bytes(s.m_objectId, s.m_leaf, s.m_pose.m_rotation, s.m_pose.m_origin);
+}
+
+template <class Bytes>
 void transfer(Bytes& bytes, ImpactSnapshot& s)
 {
     Impact& i = s.m_impact;
@@ -136,8 +144,8 @@ void transfer(Bytes& bytes, WeldSnapshot& w)
 template <class Bytes>
 void transfer(Bytes& bytes, ContactSnapshot& s)
 {
-    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_impacts, s.m_held, s.m_attachments, s.m_welds,
-          s.m_lastAttachment, s.m_place);
+    bytes(s.m_contacts, s.m_origins, s.m_sheetSides, s.m_solids, s.m_positions, s.m_impacts, s.m_held, s.m_attachments,
+          s.m_welds, s.m_lastAttachment, s.m_place);
 }
 
 template <class Bytes>

@@ -21,6 +21,17 @@ int triangleOfCorner(const FemSoftBody& fem, int feature)
     return (feature - firstCornerFeature(fem)) / kMaxCorners;
 }
 
+// The body's first contact of an origin in the last step that `is` accepts, or null.
+template <class Is>
+const ContactPoint* lastContact(const FemSoftBody& fem, const ContactOrigin& origin, const Is& is)
+{
+    const std::vector<ContactOrigin>& origins = fem.m_memory.m_origins;
+    const auto [first, last] = std::equal_range(origins.begin(), origins.end(), origin);
+    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_memory.m_contacts[&old - origins.data()]; };
+    const auto found = std::find_if(first, last, [&](const ContactOrigin& old) { return is(*contactOf(old)); });
+    return found == last ? nullptr : contactOf(*found);
+}
+
 }  // namespace
 
 int firstCornerFeature(const FemSoftBody& fem)
@@ -91,13 +102,14 @@ ContactOrigin originOf(const ContactTarget& target, int feature)
     return {object, broadphaseId(*object), target.m_leaf, feature};
 }
 
+const ContactPoint* deepContact(const FemSoftBody& fem, const ContactOrigin& origin)
+{
+    return lastContact(fem, origin, [](const ContactPoint& contact) { return contact.m_gap < 0; });
+}
+
 const ContactPoint* pushingContact(const FemSoftBody& fem, const ContactOrigin& origin)
 {
-    const std::vector<ContactOrigin>& origins = fem.m_memory.m_origins;
-    const auto [first, last] = std::equal_range(origins.begin(), origins.end(), origin);
-    const auto contactOf = [&](const ContactOrigin& old) { return &fem.m_memory.m_contacts[&old - origins.data()]; };
-    const auto found = std::find_if(first, last, [&](const ContactOrigin& old) { return isPushing(*contactOf(old)); });
-    return found == last ? nullptr : contactOf(*found);
+    return lastContact(fem, origin, isPushing);
 }
 
 }  // namespace bullet_fem

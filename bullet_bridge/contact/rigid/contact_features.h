@@ -30,6 +30,9 @@ bool faces(const FemSoftBody& fem, const Triangle& nodes, const Vec3& normal);
 /// Origin of a contact of a target with a feature.
 ContactOrigin originOf(const ContactTarget& target, int feature);
 
+/// The body's contact of this origin that overlapped as the last step began, or null.
+const ContactPoint* deepContact(const FemSoftBody& fem, const ContactOrigin& origin);
+
 /// The body's contact of this origin that pushed in the last step, or null.
 const ContactPoint* pushingContact(const FemSoftBody& fem, const ContactOrigin& origin);
 

@@ -6,6 +6,7 @@
 
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
+#include "bullet_bridge/contact/rigid/entered_face.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
 namespace bullet_fem
@@ -62,6 +63,7 @@ ContactSearchReport ContactFinder::find(FemSoftBody& fem, int bodyIndex, const R
     fem.m_memory.m_contacts.assign(m_found.points().begin(), m_found.points().end());
     fem.m_memory.m_origins.assign(m_found.origins().begin(), m_found.origins().end());
     fem.m_memory.m_sheetSides.assign(m_sheets.sides().begin(), m_sheets.sides().end());
+    notePlaces(m_targets.targets(), fem);
     return report;
 }
 

@@ -35,7 +35,8 @@ void recordOverlap(FemSoftBody& fem, const btSoftBody& other);
 ///
 /// Fast motion: if surface and shape move farther within the step than half a mesh edge or half the shape's thickness,
 /// gaps and normals of its beginning are meaningless. Then a feature is a contact if the paths meet, with the normal at
-/// that time (swept_distance.h). Separated pairs are contacts only if the paths meet.
+/// that time (swept_distance.h). Separated pairs are contacts only if the paths meet, or would if others stop the
+/// target.
 ///
 /// Flush surfaces: paths are limited by present contacts (carried_motion.h), so a sliding vertex moves along its
 /// carrier, a contact band above it, and does not hit the side of the next box. A side wall that does not rise above a

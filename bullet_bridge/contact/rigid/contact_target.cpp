@@ -53,6 +53,17 @@ SurfacePair surfacePairOf(const btSoftBody& soft, const btCollisionObject& objec
     return surface;
 }
 
+const SolidPlace* lastPlaceOf(const FemSoftBody& fem, const ContactTarget& target)
+{
+    const std::vector<SolidPlace>& solids = fem.m_memory.m_solids;
+    const SolidPlace key = {broadphaseId(*target.m_object), target.m_leaf, {}};
+    const auto place = std::lower_bound(solids.begin(), solids.end(), key);
+    const bool isKnown = place != solids.end() && !(key < *place);
+    return isKnown && isMovableSolid(target) && fem.m_memory.m_positions.size() == fem.surfacePosition().size()
+               ? &*place
+               : nullptr;
+}
+
 // Displacement by gravity within the step, 0 for objects that cannot move or fall little.
 Vec3 fallOf(const FemSoftBody& fem, const ContactTarget& target)
 {
@@ -69,6 +80,11 @@ btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem)
     const btSoftBodyWorldInfo* world = fem.m_softBody->m_worldInfo;
     btBroadphaseInterface* broadphase = world ? world->m_broadphase : nullptr;
     return broadphase && broadphase->getOverlappingPairCache() ? broadphase : nullptr;
+}
+
+bool isMovableSolid(const ContactTarget& target)
+{
+    return target.m_motion->canMove() && isSolid(*target.m_shape->m_shape);
 }
 
 void SearchScope::begin(FemSoftBody& fem, int bodyIndex)
@@ -156,9 +172,11 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
             m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
                                  around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
                                  softReach + around.m_step * fastestPoint(rigidProxy, shape), Vec3(), around.m_step,
-                                 &touched.m_carrying, touched.m_advance, TargetKind::slow, 0, 0, 0, 0});
-            m_targets.back().m_fall = fallOf(fem, m_targets.back());
-            m_targets.back().m_reach += norm(m_targets.back().m_fall);
+                                 &touched.m_carrying, touched.m_advance, nullptr, TargetKind::slow, 0, 0, 0, 0});
+            ContactTarget& target = m_targets.back();
+            target.m_last = lastPlaceOf(fem, target);
+            target.m_fall = fallOf(fem, target);
+            target.m_reach += norm(target.m_fall);
         }
     }
 }
@@ -179,6 +197,11 @@ bool isFastTarget(const SearchScope& scope, const ContactTarget& target)
     // cheap upper bound first
     return isFast(swept, scope.m_fastest + norm(swept.m_motion.m_linearVelocity) - falling, edge) &&
            isFast(swept, fastestNode(fem.m_body, swept.m_motion.m_linearVelocity) - falling, edge);
+}
+
+bool mayHaveGone(const SearchScope& scope, const ContactTarget& target, const Vec3& way)
+{
+    return norm(way) < 4 * target.m_reach + scope.m_edge;
 }
 
 bool isEnclosed(const SearchScope& scope, const ContactTarget& target)

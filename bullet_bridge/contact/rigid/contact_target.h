@@ -63,7 +63,8 @@ struct ContactTarget
     Vec3 m_fall;    ///< displacement by gravity that is missing in the free approach if one of the two is supported [m]
     double m_step;  ///< [s]
     const CarryingPlane* m_carrying;
-    Vec3 m_advance;  ///< see ContactObject; m_motion begins after it
+    Vec3 m_advance;            ///< see ContactObject; m_motion begins after it
+    const SolidPlace* m_last;  ///< place in the last search, of a movable solid; null: none
     TargetKind m_kind;
     std::size_t m_first, m_end;          ///< range of its contacts in the list of near ones
     std::size_t m_firstSide, m_endSide;  ///< range in SheetSearch::sides(), of sheets
@@ -92,11 +93,18 @@ private:
 /// The body's broad phase, with its pairs; null if it is not known.
 btBroadphaseInterface* broadphaseOf(const FemSoftBody& fem);
 
+/// True if the target has an inside and can move.
+bool isMovableSolid(const ContactTarget& target);
+
 /// The target's motion within the step.
 SweptShape sweptShapeOf(const ContactTarget& target);
 
 /// True if target or body move so far within the step that gaps and normals of its beginning mean nothing.
 bool isFastTarget(const SearchScope& scope, const ContactTarget& target);
+
+/// True if a point may have made a way relative to the target since the last search; else the program has placed the
+/// body or the object anew.
+bool mayHaveGone(const SearchScope& scope, const ContactTarget& target, const Vec3& way);
 
 /// True if the middle of a solid target is inside an element of the body, so that no contact shows the way out. Not
 /// with a skin.

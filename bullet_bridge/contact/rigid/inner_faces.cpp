@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "bullet_bridge/contact/rigid/inner_faces.h"
 
+#include "bullet_bridge/contact/rigid/entered_face.h"
 #include "bullet_bridge/contact/rigid/flush_filter.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
 
@@ -33,33 +34,12 @@ Vec3 inwardAt(const SearchScope& scope, int vertex)
     return -unit(area);
 }
 
-// The distance of a point that has sunk in against `held`, from where it came: from the nearest of the points farther
-// and farther back of which the shape is on that side. Over a rim that side is the plane through it. False if there is
-// none within the body's size.
-bool distanceFromBefore(const SearchScope& scope, const ContactTarget& target, const Vec3& point, const Vec3& held,
-                        SurfaceDistance& d)
-{
-    for (double lift = scope.m_band; lift < scope.m_size; lift *= 2)
-    {
-        const Vec3 before = point + lift * held;
-        if (!pointShapeDistance(*target.m_shape, before, lift + target.m_reach, d)) return false;
-        const double cosine = dot(d.m_normal, held);
-        if (cosine < kCarrierCosine) continue;
-        const Vec3 beside = d.m_gap * (d.m_normal - cosine * held);
-        if (norm(beside) <= scope.m_advantage)
-            d = {d.m_gap * cosine - lift, held, {}};
-        else
-            d.m_gap -= lift * cosine;
-        return true;
-    }
-    return false;
-}
-
 }  // namespace
 
-void InnerFaces::turn(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes,
+void InnerFaces::turn(const SearchScope& scope, const ContactTarget& target, int feature, const Triangle& nodes,
                       SurfaceDistance& d) const
 {
+    turnToEnteredFace(scope, target, feature, nodes, d);
     if (m_targets.size() < 2 || !(d.m_gap <= scope.m_advantage && d.m_gap >= -scope.m_band)) return;
     if (!isSolid(*target.m_shape->m_shape)) return;
     const Vec3 held = heldAt(scope, nodes, d.m_barycentric);

@@ -22,9 +22,10 @@ public:
     {
     }
 
-    /// Turns the distance of a point of a feature from a convex target. Points deeper than the contact band may have
-    /// come from any side. `d`: less the contact offset, with the point's weights on the feature's corners.
-    void turn(const SearchScope& scope, const ContactTarget& target, const Triangle& nodes, SurfaceDistance& d) const;
+    /// Turns the distance of a point of a feature from a convex target, first to the face that it entered through
+    /// (entered_face.h). `d`: less the contact offset, with the point's weights on the feature's corners.
+    void turn(const SearchScope& scope, const ContactTarget& target, int feature, const Triangle& nodes,
+              SurfaceDistance& d) const;
 
 private:
     enum class Beside

@@ -92,8 +92,8 @@ bool isFar(const SearchScope& scope, const ContactTarget& target, const Triangle
 }
 
 // Gap at a point of the surface; infinite if it is out of reach.
-double gapAt(const SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target, const Triangle& nodes,
-             const FeatureWeights& weights, SurfaceDistance& d)
+double gapAt(const SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target, int feature,
+             const Triangle& nodes, const FeatureWeights& weights, SurfaceDistance& d)
 {
     const FemSoftBody& fem = scope.fem();
     const Vec3 point = interpolated(fem.surfacePosition(), nodes, weights);
@@ -102,7 +102,7 @@ double gapAt(const SearchScope& scope, const InnerFaces& innerFaces, const Conta
         return kNotNear;
     d.m_barycentric = weights;
     d.m_gap -= fem.m_settings.m_contactOffset;
-    innerFaces.turn(scope, target, nodes, d);
+    innerFaces.turn(scope, target, feature, nodes, d);
     return d.m_gap;
 }
 
@@ -155,7 +155,7 @@ void NodeSearch::findOnNodes(SearchScope& scope, const InnerFaces& innerFaces, c
         scope.m_culling.noteGap(i, isKnown ? d.m_gap : kNotNear, d.m_normal);
         if (!isKnown || d.m_gap > reach) continue;
         d.m_gap -= fem.m_settings.m_contactOffset;
-        innerFaces.turn(scope, target, {i, i, i}, d);
+        innerFaces.turn(scope, target, i, {i, i, i}, d);
         fem.m_search.m_nodeGap[i] = d.m_gap;
         fem.m_search.m_nodeNormal[i] = d.m_normal;
         list.consider(scope, target, i, {i, i, i}, d);
@@ -175,7 +175,7 @@ void NodeSearch::findOnEdges(SearchScope& scope, const InnerFaces& innerFaces, c
         const Triangle edge = {a, b, a};
         if (scope.m_culling.isOutside(edge) || areOverOneFace(fem, a, b) || isFar(scope, target, edge)) continue;
         SurfaceDistance d;
-        fem.m_search.m_edgeGap[k] = gapAt(scope, innerFaces, target, edge, {0.5, 0.5, 0}, d);
+        fem.m_search.m_edgeGap[k] = gapAt(scope, innerFaces, target, firstFeature + 2 * k, edge, {0.5, 0.5, 0}, d);
         if (fem.m_search.m_edgeGap[k] < kNotNear) list.consider(scope, target, firstFeature + 2 * k, edge, d);
         const double nearest =
             std::min({fem.m_search.m_edgeGap[k], fem.m_search.m_nodeGap[a], fem.m_search.m_nodeGap[b]});
@@ -199,7 +199,7 @@ void NodeSearch::findOnTriangles(SearchScope& scope, const InnerFaces& innerFace
             continue;
         if (isFar(scope, target, t)) continue;
         SurfaceDistance d;
-        double nearest = gapAt(scope, innerFaces, target, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
+        double nearest = gapAt(scope, innerFaces, target, firstFeature + 2 * k, t, {1.0 / 3, 1.0 / 3, 1.0 / 3}, d);
         if (nearest < kNotNear) list.consider(scope, target, firstFeature + 2 * k, t, d);
         for (int a = 0; a < 3; ++a)
             nearest = std::min({nearest, fem.m_search.m_nodeGap[t[a]],
@@ -242,7 +242,7 @@ double NodeSearch::considerNearest(const SearchScope& scope, const InnerFaces& i
     if (!triangleShapeDistance(*target.m_shape, {x[nodes[0]], x[nodes[1]], x[nodes[2]]}, target.m_reach, d))
         return nearest;
     d.m_gap -= fem.m_settings.m_contactOffset;
-    innerFaces.turn(scope, target, nodes, d);
+    innerFaces.turn(scope, target, feature, nodes, d);
     const double gap = d.m_gap;
     const ContactPoint* const last = gap < scope.m_band ? pushingContact(fem, originOf(target, feature)) : nullptr;
     const double advantage = gap >= scope.m_band ? kGapRounding * scope.m_edge

@@ -165,7 +165,8 @@ void keepNear(const ContactList& near, const FlushFilter& filter, std::size_t k,
 void findTouchingNodes(SearchScope& scope, const InnerFaces& innerFaces, const ContactTarget& target, ContactList& near)
 {
     const FemSoftBody& fem = scope.fem();
-    const double reach = scope.m_band + fem.m_settings.m_contactOffset;
+    const double reach =  // a vertex may have passed a movable target since the last search
+        (target.m_last != nullptr ? target.m_reach : scope.m_band) + fem.m_settings.m_contactOffset;
     if (!scope.m_culling.meets({target.m_shape->m_boundsMin, target.m_shape->m_boundsMax, reach})) return;
     for (int i : scope.vertices())
     {
@@ -173,7 +174,7 @@ void findTouchingNodes(SearchScope& scope, const InnerFaces& innerFaces, const C
         SurfaceDistance d;
         if (!scope.m_culling.noteVertex(i, x, x) || !pointShapeDistance(*target.m_shape, x, reach, d)) continue;
         d.m_gap -= fem.m_settings.m_contactOffset;
-        innerFaces.turn(scope, target, {i, i, i}, d);
+        innerFaces.turn(scope, target, i, {i, i, i}, d);
         const Vec3 relative = fem.surfaceVelocity()[i] - target.m_motion->velocityAt(x);
         const double closest = d.m_gap + target.m_step * dot(d.m_normal, relative) - norm(target.m_fall);
         const bool parts = d.m_gap > 0 && closest > scope.m_band;

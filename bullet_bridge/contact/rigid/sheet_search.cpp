@@ -117,7 +117,7 @@ Vec3 SheetSearch::safePosition(const Sheets& sheets, int node, const Vec3& posit
     if (side != known.end() && !(key < *side))
     {
         const Vec3 way = position - target.m_shape->m_pose.toWorld(side->m_position);
-        if (norm(way) < 4 * target.m_reach + sheets.m_scope.m_edge) return target.m_shape->m_pose.toWorld(side->m_safe);
+        if (mayHaveGone(sheets.m_scope, target, way)) return target.m_shape->m_pose.toWorld(side->m_safe);
     }
     if (sheets.m_scope.fem().m_surface.topology().trianglesAt(node).size() == 0) return sheets.m_scope.m_middle;
     return position - sheets.m_scope.m_band * m_outward[node];

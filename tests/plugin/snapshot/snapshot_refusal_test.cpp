@@ -181,6 +181,22 @@ TEST_F(RefusedSnapshot, ContactsOfInvalidFeaturesAreRejected)
     expectRefused(bytes, "the feature of a contact is -3, below 0");
 }
 
+TEST_F(RefusedSnapshot, InvalidPlacesOfSolidsAreRejected)
+{
+    ContactMemory& memory = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem().m_memory;
+    const std::vector<Vec3> positions = memory.m_positions;
+    memory.m_positions.assign(2, Vec3());
+    Bytes bytes = m_scene.save();
+    memory.m_positions = positions;
+    expectRefused(bytes, "positions of 2 vertices are noted");
+    SolidPlace solid;
+    solid.m_pose.m_rotation(1, 2) = std::numeric_limits<double>::quiet_NaN();
+    memory.m_solids.push_back(solid);
+    bytes = m_scene.save();
+    memory.m_solids.pop_back();
+    expectRefused(bytes, "the numbers of the pose of a solid");
+}
+
 TEST_F(RefusedSnapshot, InvalidImpactsAreRejected)
 {
     FemSoftBody& fem = btFemCoupling::femRecord(m_scene.m_fem, m_scene.m_soft[0], "test").fem();
