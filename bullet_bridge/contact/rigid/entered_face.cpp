@@ -61,11 +61,11 @@ void turnToEnteredFace(const SearchScope& scope, const ContactTarget& target, in
     // A target that rolls on the point turns other faces to it.
     const double cosine = std::max(dot(face.m_normal, d.m_normal), dot(face.m_lastNormal, d.m_normal));
     if (!face.m_exists || cosine >= (d.m_gap < 0 ? kCarrierCosine : kOpposedCosine)) return;
+    if (cosine > kOpposedCosine && !(d.m_gap < -scope.m_band)) return;  // a little below a face beside: flush
     const Vec3 point = interpolated(scope.fem().surfacePosition(), nodes, d.m_barycentric);
     SurfaceDistance before;
     if (!distanceFromBefore(scope, target, point, face.m_normal, before)) return;
     before.m_gap -= scope.fem().m_settings.m_contactOffset;
-    if (cosine > kOpposedCosine && !(before.m_gap < -scope.m_band)) return;
     d.m_gap = before.m_gap;
     d.m_normal = before.m_normal;
 }

@@ -8,9 +8,9 @@ namespace bullet_fem
 {
 
 /// Turns the distance of a point of a feature from a movable convex target to the face that it entered the target
-/// through, if another one is nearer: the opposite one, or one beside while the point is deeper than the contact band.
-/// That face is the one of its contact in the last step, or the first on its straight way since then, as the target saw
-/// it. `d`: less the contact offset, with the point's weights on the feature's corners.
+/// through, if another one is nearer: the opposite one, or one beside if the point is deeper below that than the
+/// contact band. That face is the one of its contact in the last step, or the first on its straight way since then, as
+/// the target saw it. `d`: less the contact offset, with the point's weights on the feature's corners.
 void turnToEnteredFace(const SearchScope& scope, const ContactTarget& target, int feature, const Triangle& nodes,
                        SurfaceDistance& d);
 
