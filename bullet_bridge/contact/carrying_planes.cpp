@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "bullet_bridge/geometry/surface/triangle_proximity.h"
+
 namespace bullet_fem
 {
 namespace
