@@ -26,10 +26,6 @@ constexpr double kMaxEnergyGain = 1, kMaxGainOfDistorted = 0.01;
 // Neo-Hookean material gain energy (EnergyLimit).
 constexpr double kFarStretch = 2;
 
-// Strain by the rounding of positions in single precision, some ten elements from the origin [-]: bodies at rest gain
-// and lose its energy.
-constexpr double kStrainRounding = 1e-6;
-
 // Trials of shorter motions. Each takes the fourth root of the gain that is left: strain along chords grows with the
 // square of the motion, and its energy with the fourth power.
 constexpr int kMaxTrials = 8;
@@ -57,22 +53,27 @@ public:
         return false;
     }
 
-    // True if the chords of this step cannot stretch elements enough.
+    // True if the chords of this step cannot stretch elements enough. The bound is one of Hooke's law, and of others
+    // while no element is distorted.
     bool isGentle()
     {
         findLoadEnergy();
+        const double given = m_kinetic + m_ofLoads;
+        const bool isBounded = !m_body.m_model->shape().m_materials.isNonlinear();
+        std::vector<Vec3>& w = elastic();
+        w.assign(m_scratch.m_velocity.begin(), m_scratch.m_velocity.end());
+        if (isBounded && chordEnergy(w.front()) <= kMaxGainOfDistorted * given) return true;
+        removeRigidVelocity(m_body, w);
+        const double energy = chordEnergy(Vec3());
+        if (isBounded && energy <= kMaxGainOfDistorted * given) return true;
+        if (!isDistorted()) return energy <= kMaxEnergyGain * given;
         m_maxGain = kMaxGainOfDistorted;
-        if (areShort() && !m_body.m_model->shape().m_materials.isNonlinear()) return true;
-        if (isDistorted()) return false;
-        m_maxGain = kMaxEnergyGain;
-        return areShort();
+        return false;
     }
 
     // True if the step gains more energy than is accepted.
     bool isExceeded()
     {
-        elastic().assign(m_scratch.m_velocity.begin(), m_scratch.m_velocity.end());
-        removeRigidVelocity(m_body, elastic());
         m_before = m_kinetic + elasticEnergy(m_body, m_state.m_x);
         return excessOf(1) > 1;
     }
@@ -107,16 +108,6 @@ private:
             if (!m_state.m_fixed[i]) m_ofLoads += 0.5 * m_step * m_step / m_state.m_mass[i] * dot(force[i], force[i]);
     }
 
-    // True if the chords cannot gain the accepted energy by Hooke's law.
-    bool areShort()
-    {
-        std::vector<Vec3>& w = elastic();
-        w.assign(m_scratch.m_velocity.begin(), m_scratch.m_velocity.end());
-        if (areShort(w.front())) return true;
-        removeRigidVelocity(m_body, w);
-        return areShort(Vec3());
-    }
-
     // True if an element is inside out, or stretched far.
     bool isDistorted() const
     {
@@ -131,13 +122,13 @@ private:
 
     // A displacement gradient s gives an element of stiffness K = (2 mu + lambda) V at most the energy K s^4 / 8.
     // Either s is that of the fastest node everywhere, or that of each node in the elements around it, four per
-    // element.
-    bool areShort(const Vec3& rigid) const
+    // element. Returns that of the body [J].
+    double chordEnergy(const Vec3& rigid)
     {
         double mass = 0, most = 0, sum = 0;  // sum of m |v|^4
         for (std::size_t i = 0; i < m_state.m_mass.size(); ++i)
         {
-            const Vec3 v = m_scratch.m_rightSide[i] - rigid;
+            const Vec3 v = elastic()[i] - rigid;
             const double square = dot(v, v);
             most = std::max(most, square);
             mass += m_state.m_mass[i];
@@ -145,7 +136,7 @@ private:
         }
         const double perSpeed = 2 * m_step / m_body.m_model->mesh().shortestHeight();
         const double fourth = std::pow(perSpeed, 4) * std::min(most * most, 4 / mass * sum);
-        return m_scratch.m_elasticEnergy.m_stiffness / 8 * fourth <= m_maxGain * (m_kinetic + m_ofLoads) + ofRounding();
+        return m_scratch.m_elasticEnergy.m_stiffness / 8 * fourth;
     }
 
     // The gain of energy with a share of the elastic motion, over the accepted one.
@@ -167,13 +158,7 @@ private:
                 m_scratch.m_kickPosition[i] + m_theta * m_step * (m_scratch.m_isTurned ? length * w[i] : v);
         }
         const double gain = kinetic + elasticEnergy(m_body, positions()) - m_before - work;
-        return gain / (m_maxGain * (std::abs(m_before) + effort + m_ofLoads) + ofRounding());
-    }
-
-    // Elastic energy of a body strained by rounding [J].
-    double ofRounding() const
-    {
-        return 0.5 * m_scratch.m_elasticEnergy.m_stiffness * kStrainRounding * kStrainRounding;
+        return gain / (m_maxGain * (std::abs(m_before) + effort + m_ofLoads));
     }
 
     // Force of the loads and of the frame damping on a node that moves with v [N].
