@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "BulletCollision/CollisionDispatch/btCollisionObject.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
 #include "bullet_bridge/contact/nearest_contacts.h"
 #include "bullet_bridge/contact/rigid/entered_face.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
+#include "fem/common/rotation.h"
 
 namespace bullet_fem
 {
@@ -91,12 +93,29 @@ void ContactFinder::findNear(ContactTarget& target)
 // Appends the contacts of a target: those near it that are not flush, and those that the surface meets on its path.
 void ContactFinder::findWithinStep(const ContactTarget& target)
 {
+    const std::size_t first = m_found.size();
     if (target.m_kind == TargetKind::fast)
         findOnPaths(m_scope, target, m_near, m_filter, m_found);
     else if (target.m_kind == TargetKind::sheets)
         m_sheets.findOnPaths(m_scope, target, m_near, m_filter, m_found);
     else
         confirmOnPaths(m_scope, target, m_near, m_filter, m_found);
+    turnToEnd(target, first);
+}
+
+// Turns the contacts of a kinematic object, from `first` on, to its pose at the end of the step: a surface that slides
+// along a turning wall would pass it. Those of fast targets have their normals at the time of impact.
+void ContactFinder::turnToEnd(const ContactTarget& target, std::size_t first)
+{
+    const Vec3 turn = target.m_step * target.m_motion->m_angularVelocity;
+    if (!target.m_object->isKinematicObject() || target.m_kind == TargetKind::fast || first == m_found.size()) return;
+    if (!(norm(turn) > 0 && norm(turn) <= RigidProxy::kMaxTurn)) return;
+    const Mat3 R = exponential(turn);
+    for (std::size_t k = first; k < m_found.size(); ++k)
+    {
+        Vec3& normal = m_found.points()[k].m_normal;
+        normal = unit(R * normal);
+    }
 }
 
 // Reserves for contacts that may come, so that steps with no more contacts than before do not allocate.

@@ -56,6 +56,7 @@ public:
 private:
     void findNear(ContactTarget& target);
     void findWithinStep(const ContactTarget& target);
+    void turnToEnd(const ContactTarget& target, std::size_t first);
     void reserve();
     bool limit(const RigidSurroundings& around);
     void listForReduction(const RigidSurroundings& around, double cell);

@@ -19,14 +19,6 @@ namespace
 constexpr double kSlop = 5e-5;         // permitted penetration over the body's size, for objects that cannot move [-]
 constexpr double kMovableSlop = 1e-4;  // and for movable objects: position corrections cost angular momentum [-]
 
-// Correction of the gap for rotation [m]: a point of a rotating object moves along an arc, so it comes closer than its
-// velocity predicts.
-double closedByArc(const RigidProxy& motion, const Vec3& point, const Vec3& normal, double step)
-{
-    const Vec3 turn = step * motion.m_angularVelocity;
-    return 0.5 * dot(normal, cross(turn, cross(turn, point - motion.m_center)));
-}
-
 // The part of a displacement that the nearest point of an edge or triangle follows: along the edge that it is on, or in
 // the triangle.
 Vec3 alongFeature(const FemSoftBody& fem, const Triangle& nodes, const FeatureWeights& weights, const Vec3& way)
@@ -115,8 +107,6 @@ ContactPoint* ContactList::keep(const SearchScope& scope, const ContactTarget& t
     contact.m_patch -= target.m_advance;
     contact.m_normal = d.m_normal;
     contact.m_gap = d.m_gap + dot(d.m_normal, target.m_advance);
-    if (target.m_object->isKinematicObject())
-        contact.m_gap -= closedByArc(*target.m_motion, contact.m_point, d.m_normal, target.m_step);
     contact.m_slop = (dot(inverseMass, inverseMass) > 0 ? kMovableSlop : kSlop) * scope.m_size;
     contact.m_friction = target.m_surface.m_friction;
     contact.m_restitution = target.m_surface.m_restitution;

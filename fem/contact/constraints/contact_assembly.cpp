@@ -144,9 +144,10 @@ void ContactRows::numberJointPoints()
 // (SoftBodyContacts::addLevers).
 void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 {
-    const Vec3 at = impulsePoint(contact);
-    const Vec3 atRigid = (contact.m_isMetLater ? contact.m_point + contact.m_patch : at) + contact.m_approach;
+    const Vec3 at = impulsePoint(contact, contact.m_patch);
     const bool moves = contact.m_rigidProxy >= 0 && m_problem->m_rigidProxies[contact.m_rigidProxy].canMove();
+    const Vec3 ofRigid = moves ? at : impulsePoint(contact, Vec3());
+    const Vec3 atRigid = (contact.m_isMetLater ? contact.m_point + contact.m_patch : ofRigid) + contact.m_approach;
     const ConstraintSide a = softEnd(contact.m_soft, moves ? atRigid : at, row.m_a.m_end);
     const ConstraintSide b = contact.m_rigidProxy >= 0 ? rigidEnd(contact.m_rigidProxy, atRigid)
                                                        : softEnd(contact.m_other, at, row.m_b.m_end);
@@ -163,12 +164,12 @@ void ContactRows::setContactRow(ContactRow& row, const ContactPoint& contact)
 // forces at a share theta of the step, at the nodes' positions then, or, for contacts that begin at the end of the
 // step, those at its end. Soft bodies measure lever arms from their positions y at 1 - theta, rigid ones from their
 // initial positions: the point is nearer to the choice of the lighter side.
-Vec3 ContactRows::impulsePoint(const ContactPoint& contact) const
+Vec3 ContactRows::impulsePoint(const ContactPoint& contact, const Vec3& patch) const
 {
     const double theta = this->theta(contact.m_soft.m_body, contact.m_rigidProxy < 0 ? contact.m_other.m_body : -1);
     const double ahead = (1 - theta) * m_settings.m_step.m_step;
     const bool isNew = contact.m_gap > contact.m_slop;
-    const Vec3 at = contact.m_point + (isNew ? theta : 2 * theta - 1) * contact.m_patch;
+    const Vec3 at = contact.m_point + (isNew ? theta : 2 * theta - 1) * patch;
     if (!(ahead > 0)) return at;
     const auto velocity = [this](const SurfacePoint& p)
     { return p.of(m_problem->m_bodies[p.m_body].m_body->m_state.m_v); };
@@ -315,7 +316,8 @@ void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact)
 {
     const double h = m_settings.m_step.m_step;
     const Vec3 soft = softArc(row), arc = arcOf(row) - soft;
-    row.m_target.x = -std::max(contact.m_gap + dot(soft, row.m_axes[0]), 0.0) / h;
+    const double closes = closedByArc(row);
+    row.m_target.x = (closes - std::max(contact.m_gap + dot(soft, row.m_axes[0]), 0.0)) / h;
     for (int i = 1; i < 3; ++i)
         row.m_target[i] =
             (dot(arc, row.m_axes[i]) - m_settings.m_slipFraction * dot(contact.m_slip, row.m_axes[i])) / h;
@@ -324,7 +326,7 @@ void ContactRows::setContactTarget(ContactRow& row, const ContactPoint& contact)
         // Implicit spring and damper: lambda = h (-k (gap + h v) - d v).
         const double k = contact.m_stiffness, s = h * k + contact.m_damping;
         row.m_yield.x = 1 / (h * s);
-        if (contact.m_gap < 0) row.m_target.x = -k * contact.m_gap / s;
+        if (contact.m_gap < closes) row.m_target.x = k * (closes - contact.m_gap) / s;
     }
 }
 

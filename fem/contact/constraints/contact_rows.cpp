@@ -16,9 +16,9 @@ namespace
 
 constexpr std::size_t kManyBodies = 16;  // minimum number of bodies with dense compliance for which threads pay
 
-// Largest rotations within a step whose arcs sticking points follow [rad]. A movable proxy's spin is unknown before the
-// solve, and counts only if it is about the normal, by this cosine [-]: arcs threw jams of tumbling bodies apart.
-constexpr double kMaxKinematicTurn = 0.5, kMaxMovableTurn = 0.1;
+// Largest rotation of a movable proxy within a step whose arcs sticking points follow [rad]. Its spin is unknown before
+// the solve, and counts only if it is about the normal, by this cosine [-]: arcs threw jams of tumbling bodies apart.
+constexpr double kMaxMovableTurn = 0.1;
 constexpr double kMinAxisCosine = 0.98;
 
 }  // namespace
@@ -306,10 +306,17 @@ Vec3 ContactRows::arcOf(const ContactRow& row) const
     if (end.m_rigidProxy < 0 || end.m_angular) return {};
     const RigidProxy& rigidProxy = m_problem->m_rigidProxies[end.m_rigidProxy];
     const Vec3 spin = m_settings.m_step.m_step * rigidProxy.m_angularVelocity;
-    const double maxTurn = rigidProxy.canMove() ? kMaxMovableTurn : kMaxKinematicTurn;
+    const double maxTurn = rigidProxy.canMove() ? kMaxMovableTurn : RigidProxy::kMaxTurn;
     if (dot(spin, spin) > maxTurn * maxTurn) return {};
     if (rigidProxy.canMove() && std::fabs(dot(spin, row.m_axes[0])) < kMinAxisCosine * norm(spin)) return {};
     return 0.5 * cross(spin, cross(spin, end.m_arm));
+}
+
+// Movable proxies have arcs about the normal alone.
+double ContactRows::closedByArc(const ContactRow& row) const
+{
+    const bool isLed = row.m_b.m_rigidProxy >= 0 && !m_problem->m_rigidProxies[row.m_b.m_rigidProxy].canMove();
+    return isLed ? dot(row.m_axes[0], arcOf(row)) : 0;
 }
 
 Vec3 ContactRows::arcOfMean(const ContactRow& row) const

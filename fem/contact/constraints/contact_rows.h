@@ -95,6 +95,9 @@ public:
     /// step: over a share theta of the step, divided by theta, and over the whole step [m].
     Vec3 arcOf(const ContactRow& row) const;
 
+    /// Part of the gap that the arc of an immovable rigid proxy closes within the step, beyond its velocity [m].
+    double closedByArc(const ContactRow& row) const;
+
     /// The motion of side a relative to side b beyond h times their velocities, as soft bodies turn [m].
     Vec3 softArc(const ContactRow& row) const
     {
@@ -204,7 +207,7 @@ private:
     static void setAxes(const Vec3& normal, ContactRow& row);
     void addContactRows();
     void setContactRow(ContactRow& row, const ContactPoint& contact);
-    Vec3 impulsePoint(const ContactPoint& contact) const;
+    Vec3 impulsePoint(const ContactPoint& contact, const Vec3& patch) const;
     void addJointRow(const Joint& joint, const int* points);
     void addRigidContactRow(const RigidContact& touch);
     void addTorsionRow(const TorsionalFriction& torsion);

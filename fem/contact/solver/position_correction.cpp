@@ -81,7 +81,8 @@ bool PositionCorrection::lags() const
         const Vec3 mean = m_rows.meanVelocity(row);
         if (k < contacts)
         {
-            if (-dot(row.m_axes[0], mean) - std::max(problem.m_contacts[k].m_gap, 0.0) / m_step > negligible)
+            const double closes = m_rows.closedByArc(row) / m_step;
+            if (closes - dot(row.m_axes[0], mean) - std::max(problem.m_contacts[k].m_gap, 0.0) / m_step > negligible)
                 return true;
         }
         else if (norm(lagOf(row, problem.m_joints[k - contacts])) > negligible)
@@ -142,7 +143,9 @@ void PositionCorrection::prepareContact(const ContactPoint& c, ContactRow& row) 
     const double moving = dot(c.m_normal, mean);
     const double theta = m_rows.theta(row);
     const double left = theta * std::min(dot(c.m_normal, m_rows.velocity(row)), 0.0);  // for the rows
-    row.m_target.x = c.m_gap < 0 ? pushSpeed(c, m_rows.settings()) - (moving - left) : -(moving + c.m_gap / h);
+    const double closes = m_rows.closedByArc(row) / h;
+    row.m_target.x =
+        closes + (c.m_gap < 0 ? pushSpeed(c, m_rows.settings()) - (moving - left) : -(moving + c.m_gap / h));
     if (theta < 1)
     {
         const Vec3 moves = mean + (1 / h) * (m_rows.arcOf(row) - m_rows.arcOfMean(row));

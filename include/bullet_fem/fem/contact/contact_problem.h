@@ -26,6 +26,10 @@ BULLETFEM_API std::shared_ptr<ComplianceCache> makeComplianceCache(std::shared_p
 /// A rigid body in the contact solver.
 struct RigidProxy
 {
+    /// Largest rotation of an immovable proxy within a step that contacts follow [rad]: up to it they hold at the end
+    /// of the step, with the arcs of its points; normals are then those of the end.
+    static constexpr double kMaxTurn = 0.5;
+
     Vec3 m_inverseMass;      ///< inverse mass along the world axes [1/kg]; 0 for static and kinematic bodies
     Mat3 m_inverseInertia;   ///< inverse inertia in world axes [1/(kg m2)]
     Vec3 m_center;           ///< centre of mass, world [m]
