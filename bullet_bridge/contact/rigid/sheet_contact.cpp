@@ -10,6 +10,8 @@ namespace bullet_fem
 namespace
 {
 
+constexpr double kShort =
+    0.01;  // part of a way to a point of a face that is not looked along: the point may be on a rim
 constexpr int kMaxCrossings = 4;  // largest number of sheets that a point is moved back through
 
 void addPointContact(std::vector<SheetContact>& touches, const SheetContact& touch)
@@ -125,7 +127,8 @@ void findPointContacts(const TriangleSoup& soup, const SheetProbe& probe, std::v
     addFirstOnPath(soup, probe, touches);
 }
 
-void findContactsAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetContact>& touches)
+void findContactsAtEnd(const TriangleSoup& soup, const SheetProbe& probe, double beyond,
+                       std::vector<SheetContact>& touches)
 {
     touches.clear();
     const Vec3& p = probe.m_rightSide;
@@ -139,9 +142,11 @@ void findContactsAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::v
                        const Vec3& normal = touch.m_surface.m_normal;
                        if (touch.m_surface.m_gap + dot(normal, probe.m_path) > probe.m_band) return;
                        const SoupPoint foot = nearestOn(soup.triangles()[t], end);
-                       if (!foot.m_onFace) return;
+                       const Vec3 off = end - foot.m_point;
+                       if (!foot.m_onFace && norm(off - dot(off, normal) * normal) > beyond) return;
                        const Vec3 above = foot.m_point + 10 * soup.tolerance() * normal;
-                       if (soup.firstCrossing(p, above).m_triangle < 0) addPointContact(touches, touch);
+                       if (soup.firstCrossing(p, above + kShort * (p - above)).m_triangle < 0)
+                           addPointContact(touches, touch);
                    });
 }
 

@@ -43,8 +43,10 @@ Vec3 onRightSide(const TriangleSoup& soup, const Vec3& safe, const Vec3& positio
 void findPointContacts(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetContact>& touches);
 
 /// Replaces `touches` by the faces below the end of a point's path that the path comes close to or crosses and that no
-/// other face hides: past a concave edge, the next face.
-void findContactsAtEnd(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetContact>& touches);
+/// other face hides: past a concave edge, the next face. `beyond`: distance beyond a rim that still counts as over the
+/// face [m], as contacts bound a path to their rims but for rounding.
+void findContactsAtEnd(const TriangleSoup& soup, const SheetProbe& probe, double beyond,
+                       std::vector<SheetContact>& touches);
 
 /// A triangle or edge (second corner repeated) of a soft surface, and the extent of its search.
 struct SheetFeature

@@ -13,6 +13,10 @@ namespace bullet_fem
 namespace
 {
 
+constexpr int kRounds = 3;        // sweeps over the faces that bound a node's path: enforcing one may violate another
+constexpr double kFarther = 1.5;  // largest displacement of a node in contact, over its free one (Drum)
+constexpr double kAside = 0.25;   // largest part of it that contacts turn towards a face (Drum)
+
 // Largest component of a vector along the unit vectors within a cone, given by its axis (unit) and the cosine of its
 // half angle.
 double alongCone(const Vec3& way, const Vec3& axis, double cosine)
@@ -42,6 +46,24 @@ bool isTurned(const SearchScope& scope, const ContactTarget& target, const Carri
     const Vec3 carriedAlong = target.m_step * target.m_motion->velocityAt(fem.surfacePosition()[node]);
     way = carried.allowed(node, target.m_step * fem.surfaceVelocity()[node]) - carriedAlong;
     return norm(way) > scope.m_band;
+}
+
+bool isNegligible(const SearchScope& scope, const Vec3& way)
+{
+    return norm(way) <= kNegligibleLength * scope.m_edge;
+}
+
+// The way along the contacts of a list from `first` on.
+Vec3 boundedWay(Vec3 way, std::size_t first, const ContactList& list)
+{
+    for (int round = 0; round < kRounds; ++round)
+        for (std::size_t k = first; k < list.size(); ++k)
+        {
+            const ContactPoint& contact = list.points()[k];
+            const double into = -dot(contact.m_normal, way) - std::max(contact.m_gap, 0.0);
+            if (into > 0) way += into * contact.m_normal;
+        }
+    return way;
 }
 
 double thicknessOf(const FemSoftBody& fem, const ContactTarget& target)
@@ -171,40 +193,70 @@ void SheetSearch::findOnPaths(SearchScope& scope, const ContactTarget& target, c
         const Vec3 rightSide = target.m_shape->m_pose.toWorld(m_sides[side++].m_safe);
         // All contacts of the node were dropped as flush with each other: it meets the face below the end of its path.
         const bool dropped = k > firstNear && list.size() == first && !carried.isCarried(i);
-        if (!turned && !dropped) continue;
-        if (dropped) way = wayOf(fem, target, i);
+        if (!turned) way = wayOf(fem, target, i);
+        if (!turned && !dropped && (list.size() == first || isNegligible(scope, way))) continue;
         if (!isCollected) collect(scope, target);
         isCollected = true;
-        considerPath(sheets, {i, way, rightSide, first}, carried, list);
+        const BoundedNode node = {i, way, rightSide, carried.liftOf(i), first};
+        if (turned || dropped) considerPath(sheets, node, list);
+        considerEnds(sheets, node, list);
     }
     for (; k < target.m_end; ++k) keepNear(k);
 }
 
-void SheetSearch::considerPath(const Sheets& sheets, const TurnedNode& turned, const CarriedMotion& carried,
-                               ContactList& list)
+SheetProbe SheetSearch::liftedProbe(const Sheets& sheets, const BoundedNode& node, const Vec3& way) const
 {
-    const int node = turned.m_node;
-    const double band = sheets.m_scope.m_band;
-    const Vec3 lift = carried.liftOf(node);
-    const SheetProbe probe = {sheets.m_scope.fem().surfacePosition()[node] + lift,
-                              onRightSide(m_soup, turned.m_rightSide, turned.m_rightSide + lift), turned.m_way, band,
-                              sheets.m_thickness};
-    const auto considerBut = [&](const auto& isKnown)
+    return {sheets.m_scope.fem().surfacePosition()[node.m_node] + node.m_lift,
+            onRightSide(m_soup, node.m_rightSide, node.m_rightSide + node.m_lift), way, sheets.m_scope.m_band,
+            sheets.m_thickness};
+}
+
+// Takes the lift back from the gaps that were found with it.
+void SheetSearch::lower(const Vec3& lift)
+{
+    for (SheetContact& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
+}
+
+void SheetSearch::considerPath(const Sheets& sheets, const BoundedNode& node, ContactList& list)
+{
+    findPointContacts(m_soup, liftedProbe(sheets, node, node.m_way), m_touches);
+    lower(node.m_lift);
+    const auto isKnown = [&](const SheetContact& touch) { return touch.m_surface.m_gap <= sheets.m_scope.m_band; };
+    m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isKnown), m_touches.end());
+    considerContacts(sheets, node.m_node, {node.m_node, node.m_node, node.m_node}, list);
+}
+
+// A node goes along the faces that it meets, past the concave edges between them. Contacts of others may carry it
+// farther than it would go freely, or aside: faces that it may come close to bound it, too.
+void SheetSearch::considerEnds(const Sheets& sheets, const BoundedNode& node, ContactList& list)
+{
+    const Triangle corners = {node.m_node, node.m_node, node.m_node};
+    for (double length : {1.0, kFarther})
     {
-        for (SheetContact& touch : m_touches) touch.m_surface.m_gap -= dot(touch.m_surface.m_normal, lift);
-        m_touches.erase(std::remove_if(m_touches.begin(), m_touches.end(), isKnown), m_touches.end());
-        considerContacts(sheets, node, {node, node, node}, list);
-    };
-    findPointContacts(m_soup, probe, m_touches);
-    considerBut([band](const SheetContact& touch) { return touch.m_surface.m_gap <= band; });
-    findContactsAtEnd(m_soup, probe, m_touches);
-    considerBut(
-        [&](const SheetContact& touch)
+        const Vec3 way = boundedWay(length * node.m_way, node.m_first, list);
+        if (isNegligible(sheets.m_scope, way)) return;
+        SheetProbe probe = liftedProbe(sheets, node, way);
+        probe.m_band += norm(node.m_lift) + kAside * norm(way);
+        findContactsAtEnd(m_soup, probe, kNegligibleLength * sheets.m_scope.m_edge, m_touches);
+        lower(node.m_lift);
+        for (const SheetContact& touch : m_touches)
         {
-            return std::any_of(list.points().begin() + static_cast<std::ptrdiff_t>(turned.m_first), list.points().end(),
-                               [&](const ContactPoint& known)
-                               { return dot(known.m_normal, touch.m_surface.m_normal) > kParallelNormals; });
-        });
+            const Vec3& normal = touch.m_surface.m_normal;
+            const bool isKnown =
+                std::any_of(list.points().begin() + static_cast<std::ptrdiff_t>(node.m_first), list.points().end(),
+                            [&](const ContactPoint& known) { return dot(known.m_normal, normal) > kParallelNormals; });
+            if (isKnown || !faces(sheets.m_scope.fem(), corners, normal)) continue;
+            if (list.keep(sheets.m_scope, sheets.m_target, node.m_node, corners, touch.m_surface))
+                noteTriangle(touch, list);
+        }
+    }
+}
+
+// Writes the triangle of the last contact.
+void SheetSearch::noteTriangle(const SheetContact& touch, ContactList& list) const
+{
+    list.origins().back().m_part = m_soup.triangles()[touch.m_triangle].m_part;
+    list.origins().back().m_triangle = m_soup.triangles()[touch.m_triangle].m_index;
 }
 
 void SheetSearch::findOnTriangles(const Sheets& sheets, ContactList& list)
@@ -264,9 +316,7 @@ void SheetSearch::considerContacts(const Sheets& sheets, int feature, const Tria
     {
         const std::size_t before = list.size();
         list.consider(sheets.m_scope, sheets.m_target, feature, nodes, touch.m_surface);
-        if (list.size() == before) continue;
-        list.origins().back().m_part = m_soup.triangles()[touch.m_triangle].m_part;
-        list.origins().back().m_triangle = m_soup.triangles()[touch.m_triangle].m_index;
+        if (list.size() > before) noteTriangle(touch, list);
     }
 }
 

@@ -24,8 +24,8 @@ public:
     /// per vertex, the normal of its strongest contact in the last step, or 0.
     void findNear(SearchScope& scope, ContactTarget& target, const std::vector<Vec3>& heldNormal, ContactList& near);
 
-    /// Appends the near contacts that are not flush, and for vertices whose path their carriers turn, those on the
-    /// path.
+    /// Appends the near contacts that are not flush, for vertices whose path their carriers turn those on the path, and
+    /// the faces below the end of the path along a vertex's contacts.
     void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactList& near,
                      const FlushFilter& filter, ContactList& list);
 
@@ -40,12 +40,13 @@ private:
         const ContactTarget& m_target;
         double m_thickness;  // of the sheet, plus the contact offset [m]
     };
-    /// A node whose path is not the free one.
-    struct TurnedNode
+    /// A node whose path its contacts bound.
+    struct BoundedNode
     {
         int m_node;
-        Vec3 m_way;           // displacement relative to the object [m]
+        Vec3 m_way;           // displacement relative to the object, as its carriers allow it [m]
         Vec3 m_rightSide;     // its position on the right side of the sheets [m]
+        Vec3 m_lift;          // displacement that takes it off its carriers [m]
         std::size_t m_first;  // index of its first contact
     };
 
@@ -56,7 +57,11 @@ private:
     void findOnEdges(const Sheets& sheets, ContactList& list);
     Vec3 safePosition(const Sheets& sheets, int node, const Vec3& position) const;
     Vec3 rightSideOf(const Sheets& sheets, int node, const Vec3& position, const Vec3& heldNormal) const;
-    void considerPath(const Sheets& sheets, const TurnedNode& turned, const CarriedMotion& carried, ContactList& list);
+    SheetProbe liftedProbe(const Sheets& sheets, const BoundedNode& node, const Vec3& way) const;
+    void lower(const Vec3& lift);
+    void considerPath(const Sheets& sheets, const BoundedNode& node, ContactList& list);
+    void considerEnds(const Sheets& sheets, const BoundedNode& node, ContactList& list);
+    void noteTriangle(const SheetContact& touch, ContactList& list) const;
     void considerContacts(const Sheets& sheets, int feature, const Triangle& nodes, ContactList& list);
 
     TriangleSoup m_soup;
