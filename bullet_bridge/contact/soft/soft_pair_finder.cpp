@@ -87,9 +87,9 @@ SoftPairReport SoftPairFinder::find(const SoftPairSide& first, const SoftPairSid
     if (!self) partDeep({first, second, roles.m_origin}, reach, offset);
 
     SoftPairReport report;
+    m_continued.assign(m_last.m_count, 0);
     report.m_thinned = thin(first, second);
     report.m_limited = limit(first, second, maxContacts);
-    m_continued.assign(m_last.m_count, 0);
     transferImpulses();
     inheritImpulses(first, second);
     tell(report, contacts, origins);
@@ -293,11 +293,8 @@ void SoftPairFinder::listForReduction(const SoftPairSide& first, const SoftPairS
         const ContactPoint& contact = m_found[k];
         const bool softIsFirst = m_foundOrigins[k].m_kind != SoftPairKind::nodeOfSecond;
         const SurfacePoint& point = softIsFirst == byFirst ? contact.m_soft : contact.m_other;
-        const SoftPairOrigin* const end = m_last.m_origins + m_last.m_count;
-        const SoftPairOrigin* const old = std::lower_bound(m_last.m_origins, end, m_foundOrigins[k]);
-        const bool known = old != end && !(m_foundOrigins[k] < *old);
-        m_reduction.add(
-            {0, contact, point.of(X), contact.m_gap, known && isPushing(m_last.m_contacts[old - m_last.m_origins])});
+        const int last = remembered(m_foundOrigins[k], contact.m_normal);
+        m_reduction.add({0, contact, point.of(X), contact.m_gap, last >= 0 && isPushing(m_last.m_contacts[last])});
     }
 }
 

@@ -36,7 +36,7 @@ TEST_P(ContactLimitOfASlab, LetsItRestWithItsWeight)
     box.m_cells = {20, 20, 1};  // 441 nodes on a side
     box.m_youngModulus = 1e6;
     box.m_center = {0, 0, thickness / 2};
-    box.m_bending = btFemBending::plain;  // docs/reliability.md, Known failures
+    box.m_bending = limit > 32 ? btFemBending::accurate : btFemBending::plain;  // sags by 3 mm between 32 points
     btSoftBody* lower = nullptr;
     if (onSoft)
     {
@@ -80,10 +80,10 @@ INSTANTIATE_TEST_SUITE_P(OnAFloor, ContactLimitOfASlab,
                                           testing::Values(32, 64, 128, 256, 400, 2000), testing::Values(false)),
                          nameOfSlab);
 
-// With fewer points between them, slabs shake.
+// Between 64 points slabs sag by 5 mm.
 INSTANTIATE_TEST_SUITE_P(OnASoftSlab, ContactLimitOfASlab,
                          testing::Combine(testing::Values(Coupling::swap, Coupling::coupled),
-                                          testing::Values(256, 400, 2000), testing::Values(true)),
+                                          testing::Values(128, 256, 400, 2000), testing::Values(true)),
                          nameOfSlab);
 
 }  // namespace
