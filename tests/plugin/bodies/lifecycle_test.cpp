@@ -351,6 +351,19 @@ TEST_P(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
     EXPECT_TRUE(allFinite(cube));
 }
 
+// Bullet makes the leaf of a body's broad-phase tree with its collision margin, 25 cm, and does not shrink it by
+// itself.
+TEST_P(Lifecycle, SmallBodiesOverlapTheirNeighboursAlone)
+{
+    FemWorld world(GetParam());
+    const btScalar edge = btScalar(0.1), pitch = btScalar(0.5);
+    for (int i = 0; i < 9; ++i)
+        world.addSoft(btFemHelpers::createBox(world.info(), pitch * btVector3(i % 3, i / 3, 0),
+                                              btVector3(edge, edge, edge), edge));
+    world.step(2);
+    EXPECT_EQ(world.info().m_broadphase->getOverlappingPairCache()->getNumOverlappingPairs(), 0);
+}
+
 TEST_P(Lifecycle, KeysNeverAddedAreForgotten)
 {
     FemWorld world(GetParam());
