@@ -9,7 +9,6 @@
 #include "bullet_fem/btFemHelpers.h"
 #include "bullet_fem/fem/step/stepping.h"
 #include "fem/common/chunks.h"
-#include "plugin/registry/btFemBroadphaseProxy.h"
 #include "plugin/stages/btFemBulletContacts.h"
 #include "plugin/stages/btFemPrediction.h"
 #include "plugin/stages/btFemPublishing.h"
@@ -46,12 +45,11 @@ void btFemWorldStep::predict(double step)
           });
     for (btFemBodyRecord* record : m_due)
     {
-        if (record->m_work.m_lastStep == 0) fitBroadphaseLeaf(*record->m_softBody);
         m_refactoring.renew(m_setUp, *record, bodyStep(*record, step));
         if (m_setUp.readyForSelfContact(*record)) record->fem().m_overlaps.m_soft.push_back(record->m_softBody);
         m_detailChooser.choose(*record, bodyStep(*record, step));
     }
-    prepareForCollision(m_registry.records());
+    prepareForCollision(m_registry.records(), step);
     m_rewindSolver.note(m_due.empty() ? nullptr : m_due.front()->m_softBody);
 }
 

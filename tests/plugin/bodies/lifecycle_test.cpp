@@ -353,13 +353,16 @@ TEST_P(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
 
 // Bullet makes the leaf of a body's broad-phase tree with its collision margin, 25 cm, and does not shrink it by
 // itself.
-TEST_P(Lifecycle, SmallBodiesOverlapTheirNeighboursAlone)
+TEST_P(Lifecycle, SmallBodiesHalfAMetreApartDoNotOverlap)
 {
     FemWorld world(GetParam());
-    const btScalar edge = btScalar(0.1), pitch = btScalar(0.5);
+    const btVector3 size(btScalar(0.1), btScalar(0.1), btScalar(0.1));
     for (int i = 0; i < 9; ++i)
-        world.addSoft(btFemHelpers::createBox(world.info(), pitch * btVector3(i % 3, i / 3, 0),
-                                              btVector3(edge, edge, edge), edge));
+    {
+        const btVector3 center(btScalar(0.5) * btScalar(i % 3), btScalar(0.5) * btScalar(i / 3), 0);
+        btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), center, size, size.x()));
+        if (i % 2 == 0) cube.setActivationState(ISLAND_SLEEPING);
+    }
     world.step(2);
     EXPECT_EQ(world.info().m_broadphase->getOverlappingPairCache()->getNumOverlappingPairs(), 0);
 }
