@@ -23,12 +23,12 @@ void addGround(GameWorld& world)
     world.addRigid(new btBoxShape(vector(20, 1, 20)), 0, vector(0, -1, 0), 0.7);
 }
 
-void addCube(GameWorld& world, double edge, int cells, const btVector3& center, double youngModulus)
+btSoftBody& addCube(GameWorld& world, double edge, int cells, const btVector3& center, double youngModulus)
 {
     const Vec3 size = {edge, edge, edge};
     btSoftBody* cube = btFemHelpers::createFromTetMesh(world.info(), makeBox(size, {cells, cells, cells}, -0.5 * size));
     cube->translate(center);
-    world.addSoft(cube, youngModulus, 1000, 0.5);
+    return world.addSoft(cube, youngModulus, 1000, 0.5);
 }
 
 void addRigidCube(GameWorld& world, double edge, double mass, const btVector3& center)
@@ -74,10 +74,12 @@ void buildManyAnchors(GameWorld& world)
         if (plate->m_nodes[i].m_x.y() > btScalar(1.95)) plate->appendAnchor(i, &holder, true);
 }
 
-void buildCells(GameWorld& world)
+void buildCells(GameWorld& world, int activation)
 {
     addGround(world);
-    for (int i = 0; i < 1000; ++i) addCube(world, 0.1, 1, vector(0.2 * (i % 32 - 16), 0.05, 0.2 * (i / 32 - 16)), 1e6);
+    for (int i = 0; i < 1000; ++i)
+        addCube(world, 0.1, 1, vector(0.2 * (i % 32 - 16), 0.05, 0.2 * (i / 32 - 16)), 1e6)
+            .setActivationState(activation);
 }
 
 }  // namespace
@@ -105,7 +107,12 @@ GameScene manyAnchors()
 
 GameScene cellsAtRest()
 {
-    return sceneOf("1000 cells", 240, 1, false, buildCells);
+    return sceneOf("1000 cells", 240, 1, false, [](GameWorld& world) { buildCells(world, ACTIVE_TAG); });
+}
+
+GameScene cellsAsleep()
+{
+    return sceneOf("1000 cells asleep", 240, 1, false, [](GameWorld& world) { buildCells(world, ISLAND_SLEEPING); });
 }
 
 }  // namespace bullet_fem

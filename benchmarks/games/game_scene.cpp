@@ -190,6 +190,7 @@ std::vector<GameScene> gameScenes(const std::string& bulletSource)
             jam(),
             manyAnchors(),
             cellsAtRest(),
+            cellsAsleep(),
             car(),
             balls(false),
             balls(true),

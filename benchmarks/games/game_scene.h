@@ -74,6 +74,9 @@ GameScene manyAnchors();
 /// A thousand soft cubes of one cell fall asleep on the ground.
 GameScene cellsAtRest();
 
+/// A thousand soft cubes of one cell sleep on the ground.
+GameScene cellsAsleep();
+
 /// All scenes.
 std::vector<GameScene> gameScenes(const std::string& bulletSource);
 

@@ -47,6 +47,7 @@ struct btFemMembership
     const void* m_formerWorld = nullptr;  ///< the world from which it was taken over
     int m_handedBack = 0;                 ///< number of times that the former world claimed it again
     bool m_present = false;               ///< the world being stepped contains it and steps it
+    int m_fittedLeaf = -1;                ///< broadphase id whose leaf was fitted to the body's bounds; -1: none
 };
 
 /// Settings by the user.

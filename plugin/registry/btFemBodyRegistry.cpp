@@ -21,6 +21,13 @@ constexpr int kInTwoWorlds = 2;  // mutual claims of a body that only two living
 
 }  // namespace
 
+// Records are usually in the order of the world's bodies, so that `place` in one is that in the other.
+std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body, int place) const
+{
+    const auto k = static_cast<std::size_t>(place);
+    return k < m_records.size() && m_records[k]->m_softBody == body ? k : indexOf(body);
+}
+
 std::size_t btFemBodyRegistry::indexOf(const btSoftBody* body) const
 {
     const auto at = m_number.find(body);
@@ -86,7 +93,7 @@ void btFemBodyRegistry::forgetTheDead(const btAlignedObjectArray<btSoftBody*>& s
 {
     for (int i = 0; i < softBodies.size(); ++i)
     {
-        const std::size_t known = indexOf(softBodies[i]);
+        const std::size_t known = indexOf(softBodies[i], i);
         if (known < m_records.size() && isAnother(known, *softBodies[i])) forget(softBodies[i]);
     }
 }
@@ -133,7 +140,7 @@ void btFemBodyRegistry::compareTopologies(const btAlignedObjectArray<btSoftBody*
     m_compared.clear();
     for (int i = 0; i < softBodies.size(); ++i)
     {
-        const std::size_t known = indexOf(softBodies[i]);
+        const std::size_t known = indexOf(softBodies[i], i);
         if (known == m_records.size() || m_joinedAsBefore[known] || !m_records[known]->isFem()) continue;
         followNodes(m_records[known]->fem());
         m_joinedAsBefore[known] = 1;
@@ -163,7 +170,7 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
     for (int i = 0; i < softBodies.size(); ++i)
     {
         btSoftBody* soft = softBodies[i];
-        std::size_t known = indexOf(soft);
+        std::size_t known = indexOf(soft, i);
         if (known < m_records.size() && m_held[known])
         {
             m_records[known]->m_reports.m_step.m_flags |= BT_FEM_ADDED_TWICE;

@@ -45,6 +45,7 @@ public:
 
 private:
     std::size_t indexOf(const btSoftBody* body) const;
+    std::size_t indexOf(const btSoftBody* body, int place) const;
     void numberRecords();
     bool isAnother(std::size_t known, const btSoftBody& body) const;
     void forgetTheDead(const btAlignedObjectArray<btSoftBody*>& softBodies);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "BulletCollision/BroadphaseCollision/btDbvtBroadphase.h"
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletSoftBody/btSoftBody.h"
@@ -27,6 +28,21 @@ struct LostProxies : btBroadphaseAabbCallback
     std::vector<btBroadphaseProxy*> m_proxies;
 };
 
+// Tells whether a broad phase has a proxy: the world info may refer to another world's.
+struct ProxySearch : btBroadphaseAabbCallback
+{
+    explicit ProxySearch(const btBroadphaseProxy& proxy) : m_proxy(proxy) {}
+
+    bool process(const btBroadphaseProxy* proxy) override
+    {
+        m_found = m_found || proxy == &m_proxy;
+        return true;
+    }
+
+    const btBroadphaseProxy& m_proxy;
+    bool m_found = false;
+};
+
 }  // namespace
 
 void restoreBroadphaseProxy(btSoftBody& body)
@@ -48,4 +64,18 @@ void restoreBroadphaseProxy(btSoftBody& body)
     body.setBroadphaseHandle(broadphase.createProxy(low, high, body.getCollisionShape()->getShapeType(), &body,
                                                     btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter,
                                                     info->m_dispatcher));
+}
+
+void fitBroadphaseLeaf(btSoftBody& body)
+{
+    const btSoftBodyWorldInfo* info = body.getWorldInfo();
+    auto* tree = info ? dynamic_cast<btDbvtBroadphase*>(info->m_broadphase) : nullptr;
+    btBroadphaseProxy* proxy = body.getBroadphaseHandle();
+    if (!tree || !proxy || !info->m_dispatcher) return;
+    ProxySearch search(*proxy);
+    tree->aabbTest(proxy->m_aabbMin, proxy->m_aabbMax, search);
+    if (!search.m_found) return;
+    btVector3 low, high;
+    body.getAabb(low, high);
+    tree->setAabbForceUpdate(proxy, low, high, info->m_dispatcher);
 }

@@ -6,6 +6,7 @@
 
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/joints/cluster_joints.h"
+#include "bullet_bridge/rigid/rigid_objects.h"
 #include "bullet_fem/btFemHelpers.h"
 #include "fem/common/message.h"
 #include "plugin/joints/btFemAttachments.h"
@@ -141,6 +142,7 @@ void restore(const btFemRecordSnapshot& s, const WorldIds& world, btFemBodyRecor
     record.m_work.m_factorJob.reset();
     record.m_asked.m_materialChanged = s.m_materialChanged;
     record.m_work.m_stage = btFemStage::none;
+    record.m_membership.m_fittedLeaf = broadphaseId(*record.m_softBody);  // states of worlds contain the leaves
     restore(s.m_body, fem.m_body);
     restore(s.m_nodes, fem);
     restore(s.m_contact, world, fem);

@@ -7,9 +7,11 @@
 #include "bullet_bridge/body/node_exchange.h"
 #include "bullet_bridge/body/rigid_dispatch.h"
 #include "bullet_bridge/joints/cluster_joints.h"
+#include "bullet_bridge/rigid/rigid_objects.h"
 #include "bullet_fem/btFemVectors.h"
 #include "fem/common/bounds.h"
 #include "plugin/record/btFemTouches.h"
+#include "plugin/registry/btFemBroadphaseProxy.h"
 #include "plugin/setup/btFemBodySetUp.h"
 #include "plugin/stages/btFemSleeping.h"
 
@@ -35,6 +37,22 @@ void refreshBulletConstants(btSoftBody& soft, double step)
     soft.m_sst.velmrg = soft.m_sst.sdt * 3;
     soft.m_sst.radmrg = soft.getCollisionShape()->getMargin();
     soft.m_sst.updmrg = soft.m_sst.radmrg * btScalar(0.25);
+}
+
+void setBounds(FemSoftBody& fem, double step)
+{
+    setSweptBounds(fem, step, kBoundsMargin * fem.m_body.m_model->mesh().meanEdgeLength());
+}
+
+// Fits the leaf of a body that has been added to the world since the last step.
+void fitNewLeaf(btFemBodyRecord& record, double worldStep)
+{
+    const int id = broadphaseId(*record.m_softBody);
+    const double step = bodyStep(record, worldStep);
+    if (record.m_membership.m_fittedLeaf == id || !isUsableStep(step)) return;
+    record.m_membership.m_fittedLeaf = id;
+    if (!record.m_softBody->isActive()) setBounds(record.fem(), step);
+    fitBroadphaseLeaf(*record.m_softBody);
 }
 
 // Applies wind, pressure and volume conservation. Bullet's wind uses node velocities with gravity just added.
@@ -82,16 +100,17 @@ void predictBody(btFemBodyRecord& record, double step)
     FemSoftBody& fem = record.fem();
     readBody(record);
     record.m_work.m_factorMismatch = factorMismatch(fem, step);
-    setSweptBounds(fem, step, kBoundsMargin * fem.m_body.m_model->mesh().meanEdgeLength());
+    setBounds(fem, step);
     refreshBulletConstants(*record.m_softBody, step);
     applyBulletForces(fem, step);
 }
 
-void prepareForCollision(const btFemRecords& records)
+void prepareForCollision(const btFemRecords& records, double worldStep)
 {
     for (const auto& record : records)
     {
         if (!record->isStepped()) continue;
+        fitNewLeaf(*record, worldStep);
         hideClusterJoints(record->fem());
         keepFaceTree(*record->m_softBody);
         // A body keeps its contacts in sleep, which Bullet begins within the step after it is wanted.

@@ -16,6 +16,6 @@ bool beginBodyStep(btFemBodySetUp& setUp, btFemBodyRecord& record, double worldS
 /// broad phase. `step` is the body's [s]. May be called by several threads for different bodies.
 void predictBody(btFemBodyRecord& record, double step);
 
-/// Prepares all FEM bodies of the world, sleeping and new ones included, so that Bullet's own soft body collision has
-/// no effect on them.
-void prepareForCollision(const btFemRecords& records);
+/// Prepares all FEM bodies of the world, sleeping and new ones included: fits new leaves of the broad phase to their
+/// bounds, and keeps Bullet's own soft body collision from having effect on them. `worldStep` [s].
+void prepareForCollision(const btFemRecords& records, double worldStep);

@@ -26,6 +26,19 @@
 
 using namespace bullet_fem;
 
+namespace
+{
+
+// True if both arrays have the same bodies in the same order.
+bool areSame(const btAlignedObjectArray<btSoftBody*>& a, const btAlignedObjectArray<btSoftBody*>& b)
+{
+    bool same = a.size() == b.size();
+    for (int i = 0; i < a.size() && same; ++i) same = a[i] == b[i];
+    return same;
+}
+
+}  // namespace
+
 struct btFemSoftBodySolver::Impl
 {
     explicit Impl(const btFemSolverInfo& info)
@@ -54,8 +67,9 @@ struct btFemSoftBodySolver::Impl
     void dropRemovedBodies(btAlignedObjectArray<btSoftBody*>& stepped)
     {
         if (!m_worldBodies) return;
-        const auto isHeld = [this](btSoftBody* body)
-        { return m_worldBodies->findLinearSearch(body) < m_worldBodies->size(); };
+        const bool allHeld = areSame(stepped, *m_worldBodies);  // thousands of bodies are not searched for one by one
+        const auto isHeld = [this, allHeld](btSoftBody* body)
+        { return allHeld || m_worldBodies->findLinearSearch(body) < m_worldBodies->size(); };
         int kept = 0;
         for (int i = 0; i < stepped.size(); ++i)
             if (isHeld(stepped[i])) stepped[kept++] = stepped[i];
@@ -72,8 +86,9 @@ struct btFemSoftBodySolver::Impl
 
     bool movesBySprings(const btSoftBody* body) const
     {
+        if (!body->isActive()) return false;
         const btFemBodyRecord* record = m_registry.find(body);
-        return body->isActive() && (!record || (record->m_model.m_rejected && record->m_membership.m_present));
+        return !record || (record->m_model.m_rejected && record->m_membership.m_present);
     }
 
     ClothContacts& cloth() { return m_step.group().cloth(); }
@@ -388,8 +403,9 @@ void btFemSoftBodySolver::updateSoftBodies()
     m_impl->dropRemovedBodies(m_softBodySet);
     for (int i = 0; i < m_softBodySet.size(); ++i)
     {
+        if (!m_softBodySet[i]->isActive()) continue;
         const btFemBodyRecord* record = m_impl->m_registry.find(m_softBodySet[i]);
-        if (!(record && record->isStepped()) && m_softBodySet[i]->isActive()) m_softBodySet[i]->integrateMotion();
+        if (!(record && record->isStepped())) m_softBodySet[i]->integrateMotion();
     }
     m_impl->m_step.publish();
     if (m_impl->m_manifolds) m_impl->m_manifolds->update();

@@ -49,7 +49,7 @@ void btFemWorldStep::predict(double step)
         if (m_setUp.readyForSelfContact(*record)) record->fem().m_overlaps.m_soft.push_back(record->m_softBody);
         m_detailChooser.choose(*record, bodyStep(*record, step));
     }
-    prepareForCollision(m_registry.records());
+    prepareForCollision(m_registry.records(), step);
     m_rewindSolver.note(m_due.empty() ? nullptr : m_due.front()->m_softBody);
 }
 

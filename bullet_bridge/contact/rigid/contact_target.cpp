@@ -172,7 +172,8 @@ void ContactTargets::list(SearchScope& scope, const RigidSurroundings& around)
             m_targets.push_back({&shape, touched.m_object, l, touched.m_rigidProxy, &rigidProxy,
                                  around.m_rigidProxies[touched.m_rigidProxy].m_center - rigidProxy.m_center, surface,
                                  softReach + around.m_step * fastestPoint(rigidProxy, shape), Vec3(), around.m_step,
-                                 &touched.m_carrying, touched.m_advance, nullptr, TargetKind::slow, 0, 0, 0, 0});
+                                 &touched.m_carrying, touched.m_advance, touched.m_mayBeStopped, nullptr,
+                                 TargetKind::slow, 0, 0, 0, 0});
             ContactTarget& target = m_targets.back();
             target.m_last = lastPlaceOf(fem, target);
             target.m_fall = fallOf(fem, target);

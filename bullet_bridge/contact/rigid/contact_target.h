@@ -23,6 +23,7 @@ struct ContactObject
     bool m_unknownShape;           ///< a part of its shape has no contact support
     CarryingPlane m_carrying;
     Vec3 m_advance;  ///< displacement along the soft surfaces that it rolls on, which its leaves have made already [m]
+    bool m_mayBeStopped;  ///< within a step: it can move, and is on joints or near other objects than the body
 };
 
 /// Input of a body's contact search.
@@ -64,6 +65,7 @@ struct ContactTarget
     double m_step;  ///< [s]
     const CarryingPlane* m_carrying;
     Vec3 m_advance;            ///< see ContactObject; m_motion begins after it
+    bool m_mayBeStopped;       ///< see ContactObject
     const SolidPlace* m_last;  ///< place in the last search, of a movable solid; null: none
     TargetKind m_kind;
     std::size_t m_first, m_end;          ///< range of its contacts in the list of near ones

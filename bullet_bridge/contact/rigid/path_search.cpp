@@ -6,10 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "BulletCollision/BroadphaseCollision/btBroadphaseInterface.h"
-#include "BulletCollision/BroadphaseCollision/btOverlappingPairCache.h"
 #include "BulletCollision/CollisionShapes/btCollisionShape.h"
-#include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/contact_patch.h"
 #include "bullet_bridge/geometry/shapes/field_distance.h"
@@ -71,25 +68,6 @@ bool meetsIfHeld(const Paths& search, const SweptShape& swept, const Triangle& n
         dot(d.m_normal, search.m_target.m_carrying->m_normal) > kSameNormalCosine)
         d.m_normal = search.m_target.m_carrying->m_normal;
     return true;
-}
-
-// True if a target can move and is on joints, or something else than the body may touch it.
-bool mayBeStopped(const FemSoftBody& fem, const ContactTarget& target)
-{
-    if (!target.m_motion->canMove()) return false;
-    const btRigidBody* rigid = btRigidBody::upcast(target.m_object);
-    if (rigid == nullptr || rigid->getNumConstraintRefs() > 0) return true;
-    btBroadphaseInterface* broadphase = broadphaseOf(fem);
-    if (broadphase == nullptr) return false;
-    const btBroadphaseProxy *own = target.m_object->getBroadphaseHandle(),
-                            *body = fem.m_softBody->getBroadphaseHandle();
-    const btBroadphasePairArray& pairs = broadphase->getOverlappingPairCache()->getOverlappingPairArray();
-    for (int i = 0; i < pairs.size(); ++i)
-    {
-        const btBroadphaseProxy *first = pairs[i].m_pProxy0, *second = pairs[i].m_pProxy1;
-        if ((first == own && second != body) || (second == own && first != body)) return true;
-    }
-    return false;
 }
 
 // True if a feature meets a movable target that others stop within the step, while the target keeps ahead of it in free
@@ -220,8 +198,8 @@ void findOnPaths(SearchScope& scope, const ContactTarget& target, const ContactL
     const double fall = norm(target.m_fall);
     const double fastest = fastestVertex(fem, swept.m_motion.m_linearVelocity) + fall / target.m_step;
     const SweptShape stopped(*target.m_shape, {target.m_motion->m_center, {}, {}}, target.m_step);
-    const Paths search = {
-        scope, target, filter.carried(), swept, mayBeStopped(fem, target) ? &stopped : nullptr, fastest + spin, 0};
+    const Paths search = {scope,          target, filter.carried(), swept, target.m_mayBeStopped ? &stopped : nullptr,
+                          fastest + spin, 0};
     scope.m_culling.meets({swept.m_boundsMin, swept.m_boundsMax, fem.m_settings.m_contactOffset + fall});
     std::size_t next = target.m_first;  // in near
     for (int i : scope.vertices())

@@ -116,9 +116,9 @@ void RigidSearch::find(const std::vector<FemSoftBody*>& bodies, double step, int
 // have left the world since they were recorded may be deleted.
 void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
 {
-    m_byAddress.clear();
-    for (std::size_t b = 0; b < bodies.size(); ++b) m_byAddress.add(bodies[b]->m_softBody, b);
+    m_byAddress.assign(bodies.size(), [&](std::size_t b) { return bodies[b]->m_softBody; });
     m_overlappingPairs.clear();
+    m_inPairs.clear();
     m_broadphases.clear();
     for (const FemSoftBody* fem : bodies)
     {
@@ -133,9 +133,22 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
             const int first = m_byAddress.find(a), second = m_byAddress.find(b);
             if (first >= 0 && second < 0) m_overlappingPairs.emplace_back(first, b);
             if (second >= 0 && first < 0) m_overlappingPairs.emplace_back(second, a);
+            if (first < 0) m_inPairs.push_back(a);
+            if (second < 0) m_inPairs.push_back(b);
         }
     }
     std::sort(m_overlappingPairs.begin(), m_overlappingPairs.end());
+    std::sort(m_inPairs.begin(), m_inPairs.end());
+}
+
+// True if an object that overlaps a FEM body can move, and is on joints or overlaps another object, too.
+bool RigidSearch::mayBeStopped(const btCollisionObject& object, const RigidProxy& rigidProxy) const
+{
+    if (!rigidProxy.canMove()) return false;
+    const btRigidBody* rigid = btRigidBody::upcast(&object);
+    if (rigid == nullptr || rigid->getNumConstraintRefs() > 0) return true;
+    const auto pairs = std::equal_range(m_inPairs.begin(), m_inPairs.end(), static_cast<const void*>(&object));
+    return pairs.second - pairs.first > 1;
 }
 
 // Finds the faces by which soft bodies carried objects in the last step.
@@ -200,8 +213,9 @@ void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigi
         const int rigidProxy = rigidProxies.indexForContact(*object, step, fem.m_body);
         const ShapeRange& shape = shapeOf(*object, rigidProxy, step, rigidProxies);
         touching.m_alone = touching.m_alone || shape.m_alone;
+        const RigidProxy& proxy = rigidProxies.rigidProxies()[rigidProxy];
         m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
-                             carryingPlaneOf(*object, rigidProxies.rigidProxies()[rigidProxy], step), shape.m_advance});
+                             carryingPlaneOf(*object, proxy, step), shape.m_advance, mayBeStopped(*object, proxy)});
     }
     m_overlapping.push_back(touching);
 }

@@ -59,6 +59,7 @@ private:
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
 
+    bool mayBeStopped(const btCollisionObject& object, const RigidProxy& rigidProxy) const;
     CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     Vec3 advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy, double step) const;
     bool givesTriangles(const ShapeLeaf& leaf);
@@ -77,6 +78,7 @@ private:
     SortedIndex<const void*> m_byAddress;                         // bodies
     std::vector<const btBroadphaseInterface*> m_broadphases;      // the bodies' broad phases, each once
     std::vector<std::pair<int, const void*>> m_overlappingPairs;  // bodies and the objects that they overlap, ascending
+    std::vector<const void*> m_inPairs;  // objects other than the bodies, once for each pair of theirs, ascending
 };
 
 }  // namespace bullet_fem

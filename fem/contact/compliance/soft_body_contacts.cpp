@@ -214,6 +214,12 @@ double SoftBodyContacts::elasticCompliance(int e) const
     return (elastic(0, 0) + elastic(1, 1) + elastic(2, 2)) / 3;
 }
 
+bool SoftBodyContacts::serves(int node) const
+{
+    const std::vector<int>& surface = m_body.m_body->m_model->mesh().surfaceNodes();
+    return m_body.m_compliance->serves(node) && std::binary_search(surface.begin(), surface.end(), node);
+}
+
 int SoftBodyContacts::nodeOf(int e) const
 {
     const SurfacePoint& point = m_ends[e].m_point;

@@ -30,8 +30,9 @@ public:
     void beginJoints() { m_firstJoint = m_added; }
     void makeRoom() { m_ends.resize(m_added); }
 
-    /// True if the body has the columns of A0^-1 at a node: joints at such nodes may be points.
-    bool serves(int node) const { return m_body.m_compliance->serves(node); }
+    /// True if joints at a node may be points: the node is on the surface, and the body has its columns of A0^-1. An
+    /// inner node has columns only from the step on in which it was exposed, and results must not depend on the past.
+    bool serves(int node) const;
 
     /// The node of a side, if it is a single movable node; else -1. Call after form().
     int nodeOf(int e) const;

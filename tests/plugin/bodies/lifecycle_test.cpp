@@ -351,6 +351,22 @@ TEST_P(Lifecycle, BodiesMayBeDeletedBetweenCollisionAndSolve)
     EXPECT_TRUE(allFinite(cube));
 }
 
+// Bullet makes the leaf of a body's broad-phase tree with its collision margin, 25 cm, and does not shrink it by
+// itself.
+TEST_P(Lifecycle, SmallBodiesHalfAMetreApartDoNotOverlap)
+{
+    FemWorld world(GetParam());
+    const btVector3 size(btScalar(0.1), btScalar(0.1), btScalar(0.1));
+    for (int i = 0; i < 9; ++i)
+    {
+        const btVector3 center(btScalar(0.5) * btScalar(i % 3), btScalar(0.5) * btScalar(i / 3), 0);
+        btSoftBody& cube = world.addSoft(btFemHelpers::createBox(world.info(), center, size, size.x()));
+        if (i % 2 == 0) cube.setActivationState(ISLAND_SLEEPING);
+    }
+    world.step(2);
+    EXPECT_EQ(world.info().m_broadphase->getOverlappingPairCache()->getNumOverlappingPairs(), 0);
+}
+
 TEST_P(Lifecycle, KeysNeverAddedAreForgotten)
 {
     FemWorld world(GetParam());
