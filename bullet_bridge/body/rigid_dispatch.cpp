@@ -9,6 +9,7 @@
 #include "BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h"
 #include "BulletSoftBody/btSoftBody.h"
 #include "BulletSoftBody/btSoftBodyConcaveCollisionAlgorithm.h"
+#include "BulletSoftBody/btSoftBodySolvers.h"
 #include "BulletSoftBody/btSoftRigidCollisionAlgorithm.h"
 #include "bullet_bridge/body/body_mark.h"
 
@@ -17,6 +18,8 @@ namespace bullet_fem
 
 namespace
 {
+
+thread_local const btDispatcherInfo* threadsDispatchInfo = nullptr;
 
 /// Bullet's algorithm for convex shapes, which passes the whole shape to the soft body solver.
 class FemRigidAlgorithm : public btSoftRigidCollisionAlgorithm
@@ -31,6 +34,13 @@ public:
     }
     // Bullet does not notify anyone when a soft body leaves its world, but it destroys the body's pairs.
     ~FemRigidAlgorithm() override { removeContactsWith(m_object, *m_body); }
+
+    void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                          const btDispatcherInfo& info, btManifoldResult* result) override
+    {
+        passDispatchInfo(*m_body, info);
+        btSoftRigidCollisionAlgorithm::processCollision(a, b, info, result);
+    }
 
 private:
     btSoftBody* m_body;
@@ -74,6 +84,20 @@ void removeContactsWith(const btCollisionObject* object, btAlignedObjectArray<Co
 }
 
 }  // namespace
+
+const btDispatcherInfo* dispatchInfoInUse()
+{
+    return threadsDispatchInfo;
+}
+
+void passDispatchInfo(const btSoftBody& body, const btDispatcherInfo& info)
+{
+    btSoftBodySolver* solver = const_cast<btSoftBody&>(body).getSoftBodySolver();
+    if (!solver) return;
+    threadsDispatchInfo = &info;
+    solver->checkInitialized();
+    threadsDispatchInfo = nullptr;
+}
 
 btCollisionAlgorithm* createBulletsAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                              const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b)

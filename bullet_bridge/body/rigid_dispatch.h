@@ -7,6 +7,7 @@ struct btCollisionAlgorithmConstructionInfo;
 class btCollisionObject;
 struct btCollisionObjectWrapper;
 class btDispatcher;
+struct btDispatcherInfo;
 class btSoftBody;
 
 namespace bullet_fem
@@ -18,6 +19,13 @@ namespace bullet_fem
 /// pair ends, because one of the two left the world or they separated, removeContactsWith() is called. Bodies moved by
 /// Bullet's springs keep Bullet's algorithms. No effect if `dispatcher` is null or not a btCollisionDispatcher.
 void dispatchRigidShapes(btDispatcher* dispatcher);
+
+/// Calls checkInitialized() of the body's solver, during which dispatchInfoInUse() is `info`, that of the collision
+/// detection in progress: Bullet's interface has no call that passes it on. Other solvers do nothing then.
+void passDispatchInfo(const btSoftBody& body, const btDispatcherInfo& info);
+
+/// The info that the present thread passes on; null if it passes none.
+const btDispatcherInfo* dispatchInfoInUse();
 
 /// Creates the algorithm of the dispatcher's configuration for a pair: for create functions that replaced it and do not
 /// handle the pair.

@@ -7,6 +7,7 @@
 
 #include "BulletCollision/BroadphaseCollision/btDispatcher.h"
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
+#include "BulletDynamics/Dynamics/btDynamicsWorld.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "BulletSoftBody/btSoftBody.h"
@@ -83,6 +84,7 @@ void RigidRewind::forget()
 {
     m_broadphase = nullptr;
     m_dispatcher = nullptr;
+    m_world = nullptr;
     m_bodies.clear();
     m_byBody.clear();
     m_known.clear();
@@ -99,16 +101,56 @@ void RigidRewind::noteConstraints()
             btTypedConstraint* constraint = m_bodies[k].m_body->getConstraintRef(c);
             const int a = indexOf(&constraint->getRigidBodyA()), b = indexOf(&constraint->getRigidBodyB());
             if (static_cast<int>(k) != (a >= 0 && b >= 0 ? std::min(a, b) : std::max(a, b))) continue;
-            m_known.emplace_back();
-            m_known.back().m_constraint = constraint;
-            m_known.back().m_isEnabled = constraint->isEnabled();
+            noteConstraint(*constraint);
         }
+    giveFeedback();
+}
+
+void RigidRewind::noteConstraint(btTypedConstraint& constraint)
+{
+    m_known.emplace_back();
+    m_known.back().m_constraint = &constraint;
+    m_known.back().m_isEnabled = constraint.isEnabled();
+}
+
+// Call when m_known has grown, as its entries may have moved.
+void RigidRewind::giveFeedback()
+{
     for (Constraint& known : m_known)
     {
-        if (known.m_constraint->getJointFeedback()) continue;
+        const btJointFeedback* present = known.m_constraint->getJointFeedback();
+        if (present && present != known.m_given) continue;
         known.m_given = &known.m_feedback;
         known.m_constraint->setJointFeedback(known.m_given);
     }
+}
+
+void RigidRewind::listReferred()
+{
+    m_referred.clear();
+    for (const Noted& noted : m_bodies)
+        for (int c = 0; c < noted.m_body->getNumConstraintRefs(); ++c)
+            m_referred.push_back(noted.m_body->getConstraintRef(c));
+    std::sort(m_referred.begin(), m_referred.end(), std::less<const btTypedConstraint*>());
+}
+
+bool RigidRewind::isReferred(const btTypedConstraint* constraint) const
+{
+    return std::binary_search(m_referred.begin(), m_referred.end(), constraint, std::less<const btTypedConstraint*>());
+}
+
+void RigidRewind::noteWorld(btDynamicsWorld& world)
+{
+    if (!m_broadphase) return;
+    m_world = &world;
+    listReferred();
+    for (int c = 0; c < world.getNumConstraints(); ++c)
+    {
+        btTypedConstraint& constraint = *world.getConstraint(c);
+        const bool holds = indexOf(&constraint.getRigidBodyA()) >= 0 || indexOf(&constraint.getRigidBodyB()) >= 0;
+        if (holds && !isReferred(&constraint)) noteConstraint(constraint);
+    }
+    giveFeedback();
 }
 
 bool RigidRewind::begin(double step)
@@ -161,19 +203,14 @@ void RigidRewind::indexBodies()
     m_byBody.assign(m_bodies.size(), [this](std::size_t k) { return m_bodies[k].m_body; });
 }
 
-// Constraints of present bodies are present: Bullet's worlds remove the references with them.
+// A callback may have removed constraints, and deleted them: those that the world has or present bodies refer to are
+// present, as Bullet's worlds remove the references with them.
 void RigidRewind::readConstraints()
 {
-    m_referred.clear();
-    for (const Noted& noted : m_bodies)
-        for (int c = 0; c < noted.m_body->getNumConstraintRefs(); ++c)
-            m_referred.push_back(noted.m_body->getConstraintRef(c));
+    listReferred();
+    for (int c = 0; m_world && c < m_world->getNumConstraints(); ++c) m_referred.push_back(m_world->getConstraint(c));
     std::sort(m_referred.begin(), m_referred.end(), std::less<const btTypedConstraint*>());
-    const auto isGone = [this](const Constraint& known)
-    {
-        return !std::binary_search(m_referred.begin(), m_referred.end(), known.m_constraint,
-                                   std::less<const btTypedConstraint*>());
-    };
+    const auto isGone = [this](const Constraint& known) { return !isReferred(known.m_constraint); };
     m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());
     for (Constraint& known : m_known)
     {

@@ -13,6 +13,7 @@
 class btBroadphaseInterface;
 class btCollisionObject;
 class btDispatcher;
+class btDynamicsWorld;
 class btPersistentManifold;
 class btRigidBody;
 class btSoftBody;
@@ -22,14 +23,19 @@ namespace bullet_fem
 
 /// Puts islands of rigid bodies, which Bullet has solved and moved without soft bodies, back to the start of the step,
 /// so that they can be solved with these and moved again. Knows the world by a soft body's world info: the bodies from
-/// its broadphase, contacts from its dispatcher, constraints from the bodies that refer to them. A constraint that none
-/// refers to is recognised by the velocity change that nothing else explains. Grows with the world, never shrinks.
+/// its broadphase, contacts from its dispatcher, constraints from the bodies that refer to them. Constraints that none
+/// refers to are known from noteWorld(), or recognised by the velocity change that nothing else explains. Grows with
+/// the world, never shrinks.
 class RigidRewind
 {
 public:
     /// Call before Bullet's rigid solver, after forces and damping: notes the state of all movable rigid bodies, awake
     /// or not.
     void note(const btSoftBody& soft);
+
+    /// Call at most once between note() and Bullet's rigid solver: notes the constraints of the world that no body
+    /// refers to (addConstraint() without disableCollisionsBetweenLinkedBodies).
+    void noteWorld(btDynamicsWorld& world);
 
     /// Forgets what was noted.
     void forget();
@@ -113,6 +119,10 @@ private:
     int indexOf(const btCollisionObject* object) const { return m_byBody.find(object); }
     void indexBodies();
     void noteConstraints();
+    void noteConstraint(btTypedConstraint& constraint);
+    void giveFeedback();
+    void listReferred();
+    bool isReferred(const btTypedConstraint* constraint) const;
     void dropRemoved();
     void readConstraints();
     void readManifolds();
@@ -122,6 +132,7 @@ private:
     void listIsland();
 
     btBroadphaseInterface* m_broadphase = nullptr;
+    btDynamicsWorld* m_world = nullptr;  // null: unknown in this step
     btDispatcher* m_dispatcher = nullptr;
     double m_step = 0;  // [s]
     std::vector<Noted> m_bodies;
@@ -134,7 +145,7 @@ private:
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;
     std::vector<const btCollisionObject*> m_present;   // scratch, sorted by address
-    std::vector<const btTypedConstraint*> m_referred;  // scratch, sorted by address
+    std::vector<const btTypedConstraint*> m_referred;  // scratch, sorted by address: those that bodies refer to
 };
 
 }  // namespace bullet_fem

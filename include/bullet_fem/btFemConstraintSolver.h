@@ -20,8 +20,7 @@ class btFemSoftBodySolver;
 /// directions within Coulomb's cone; constraints that override solveConstraintObsolete are not called.
 ///
 /// Without it the soft body solver does this after Bullet's step, for islands that it can put back to its start, with
-/// the default btContactSolverInfo. Constraints added without disableCollisionsBetweenLinkedBodies it cannot see: rigid
-/// bodies on these receive the impulses of soft bodies after they have moved.
+/// the default btContactSolverInfo.
 class BULLETFEM_API btFemConstraintSolver : public btSequentialImpulseConstraintSolver
 {
 public:

@@ -357,6 +357,7 @@ public:
 
     /// The stages of a step (docs/architecture.md); bodies that are not FEM are passed to Bullet's solver. Times are in
     /// s.
+    bool checkInitialized() override;
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;
     void predictMotion(btScalar timeStep) override;
     void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override;

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "plugin/coupling/btFemRewindSolver.h"
 
+#include "bullet_bridge/body/rigid_dispatch.h"
 #include "bullet_bridge/joints/soft_joints.h"
+#include "bullet_bridge/rigid/enclosing_world.h"
 #include "plugin/coupling/btFemIslandSolver.h"
 #include "plugin/record/btFemBodyRecord.h"
 #include "plugin/stages/btFemContactGroup.h"
@@ -12,14 +14,27 @@ using namespace bullet_fem;
 // All FEM bodies of a solver are in one world.
 void btFemRewindSolver::note(const btSoftBody* soft)
 {
-    if (soft && m_isEnabled)
+    m_awaitsWorld = soft && m_isEnabled;
+    if (m_awaitsWorld)
         m_rewind.note(*soft);
     else
         m_rewind.forget();
 }
 
+void btFemRewindSolver::noteWorld(const btAlignedObjectArray<btSoftBody*>& softBodies)
+{
+    const btDispatcherInfo* info = dispatchInfoInUse();
+    if (!info || !m_awaitsWorld) return;
+    const std::lock_guard<std::mutex> lock(m_worldMutex);
+    btDynamicsWorld* world = m_awaitsWorld ? enclosingWorld(softBodies, *info) : nullptr;
+    if (!world) return;
+    m_rewind.noteWorld(*world);
+    m_awaitsWorld = false;
+}
+
 bool btFemRewindSolver::rewind(const std::vector<btFemBodyRecord*>& records, double step)
 {
+    m_awaitsWorld = false;
     bool can = m_rewind.begin(step) && m_isEnabled;
     const auto rewindIsland = [&](const btCollisionObject* object)
     {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h"
@@ -19,6 +21,10 @@ class btFemRewindSolver : private btSequentialImpulseConstraintSolver
 public:
     /// Call before collision detection; `soft`: a FEM body of the world, null if none moves.
     void note(const btSoftBody* soft);
+
+    /// Call after note(), during collision detection, for constraints that no body refers to; `softBodies`: the array
+    /// of the world. May be called by several threads.
+    void noteWorld(const btAlignedObjectArray<btSoftBody*>& softBodies);
 
     /// Call once if bodies cannot be put back: the world's rigid solver solves FEM bodies, or forces are no longer on
     /// the rigid bodies.
@@ -44,5 +50,7 @@ private:
 
     bullet_fem::RigidRewind m_rewind;
     bool m_isEnabled = true;
+    std::atomic<bool> m_awaitsWorld{false};  // the constraints of the world may still be noted in this step
+    std::mutex m_worldMutex;                 // guards m_rewind.noteWorld()
     btFemContactGroup* m_group = nullptr;
 };

@@ -117,11 +117,12 @@ btFemPairAlgorithm::~btFemPairAlgorithm()
 }
 
 void btFemPairAlgorithm::processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                                          const btDispatcherInfo&, btManifoldResult*)
+                                          const btDispatcherInfo& info, btManifoldResult*)
 {
     if (!btSoftBody::upcast(a->getCollisionObject())) std::swap(a, b);
     auto* soft = const_cast<btSoftBody*>(btSoftBody::upcast(a->getCollisionObject()));
     auto* other = const_cast<btSoftBody*>(btSoftBody::upcast(b->getCollisionObject()));
+    bullet_fem::passDispatchInfo(*soft, info);
     const auto& ignored = soft->m_collisionDisabledObjects;
     if (other)
         soft->getSoftBodySolver()->processCollision(soft, other);

@@ -9,6 +9,7 @@
 #include "BulletSoftBody/btSoftBody.h"
 #include "bullet_bridge/body/body_arrays.h"
 #include "bullet_bridge/body/body_mark.h"
+#include "bullet_bridge/joints/cluster_joints.h"
 #include "bullet_fem/fem/common/threads.h"
 #include "plugin/registry/btFemBroadphaseProxy.h"
 
@@ -18,6 +19,14 @@ namespace
 {
 
 constexpr int kInTwoWorlds = 2;  // mutual claims of a body that only two living worlds can make
+
+// True if both arrays have the same bodies in the same order.
+bool areSame(const btAlignedObjectArray<btSoftBody*>& a, const btAlignedObjectArray<btSoftBody*>& b)
+{
+    bool same = a.size() == b.size();
+    for (int i = 0; i < a.size() && same; ++i) same = a[i] == b[i];
+    return same;
+}
 
 }  // namespace
 
@@ -199,6 +208,25 @@ void btFemBodyRegistry::synchronise(const btAlignedObjectArray<btSoftBody*>& sof
     if (kept == m_records.size()) return;
     m_records.resize(kept);
     numberRecords();
+}
+
+void btFemBodyRegistry::dropRemoved(const btAlignedObjectArray<btSoftBody*>& held,
+                                    btAlignedObjectArray<btSoftBody*>& stepped)
+{
+    const bool allHeld = areSame(stepped, held);  // thousands of bodies are not searched for one by one
+    const auto isHeld = [&](btSoftBody* body) { return allHeld || held.findLinearSearch(body) < held.size(); };
+    int kept = 0;
+    for (int i = 0; i < stepped.size(); ++i)
+        if (isHeld(stepped[i])) stepped[kept++] = stepped[i];
+    stepped.resize(kept);
+    for (const auto& record : m_records)
+    {
+        if (!record->m_membership.m_present) continue;
+        const bool isThere = isHeld(record->m_softBody),
+                   changed = isThere && record->isFem() && !arraysAsSetUp(record->fem());
+        if (changed) showClusterJoints(record->fem());
+        if (!isThere || changed) record->m_membership.m_present = false;
+    }
 }
 
 void btFemBodyRegistry::putFirst(const std::vector<btFemBodyRecord*>& records)

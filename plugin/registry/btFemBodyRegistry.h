@@ -35,6 +35,11 @@ public:
     void synchronise(const btAlignedObjectArray<btSoftBody*>& softBodies, const btSoftBodySolver* solver,
                      const bullet_fem::Threads& threads);
 
+    /// Call after callbacks of programs within a step, which may remove and delete soft bodies without notice: removes
+    /// those that the world no longer holds from `stepped`. They, and those whose arrays have changed, stand still
+    /// until the next step.
+    void dropRemoved(const btAlignedObjectArray<btSoftBody*>& held, btAlignedObjectArray<btSoftBody*>& stepped);
+
     /// True if the address still has the body of the record, with unchanged topology. The body must not be deleted.
     static bool isAsBuilt(const btFemBodyRecord& record);
 

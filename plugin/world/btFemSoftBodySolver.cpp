@@ -10,7 +10,6 @@
 #include "bullet_bridge/body/face_tree.h"
 #include "bullet_bridge/body/node_exchange.h"
 #include "bullet_bridge/body/soft_body_mesh.h"
-#include "bullet_bridge/joints/cluster_joints.h"
 #include "fem/common/attempt.h"
 #include "fem/common/message.h"
 #include "plugin/dispatch/btFemDispatch.h"
@@ -25,19 +24,6 @@
 #include "plugin/world/btFemWorldStep.h"
 
 using namespace bullet_fem;
-
-namespace
-{
-
-// True if both arrays have the same bodies in the same order.
-bool areSame(const btAlignedObjectArray<btSoftBody*>& a, const btAlignedObjectArray<btSoftBody*>& b)
-{
-    bool same = a.size() == b.size();
-    for (int i = 0; i < a.size() && same; ++i) same = a[i] == b[i];
-    return same;
-}
-
-}  // namespace
 
 struct btFemSoftBodySolver::Impl
 {
@@ -62,26 +48,9 @@ struct btFemSoftBodySolver::Impl
         return *record;
     }
 
-    // Tick callbacks run within a step, and may remove and delete soft bodies, which Bullet does not report. Bodies
-    // whose arrays they change stand still until the next step.
     void dropRemovedBodies(btAlignedObjectArray<btSoftBody*>& stepped)
     {
-        if (!m_worldBodies) return;
-        const bool allHeld = areSame(stepped, *m_worldBodies);  // thousands of bodies are not searched for one by one
-        const auto isHeld = [this, allHeld](btSoftBody* body)
-        { return allHeld || m_worldBodies->findLinearSearch(body) < m_worldBodies->size(); };
-        int kept = 0;
-        for (int i = 0; i < stepped.size(); ++i)
-            if (isHeld(stepped[i])) stepped[kept++] = stepped[i];
-        stepped.resize(kept);
-        for (const auto& record : m_registry.records())
-        {
-            if (!record->m_membership.m_present) continue;
-            const bool held = isHeld(record->m_softBody),
-                       changed = held && record->isFem() && !arraysAsSetUp(record->fem());
-            if (changed) showClusterJoints(record->fem());
-            if (!held || changed) record->m_membership.m_present = false;
-        }
+        if (m_worldBodies) m_registry.dropRemoved(*m_worldBodies, stepped);
     }
 
     bool movesBySprings(const btSoftBody* body) const
@@ -343,6 +312,12 @@ void btFemSoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& softBodies
     btDefaultSoftBodySolver::optimize(softBodies, forceUpdate);
     m_impl->m_worldBodies = m_impl->m_clothBodies = &softBodies;
     m_impl->m_registry.synchronise(softBodies, this, m_impl->m_step.threads());
+}
+
+bool btFemSoftBodySolver::checkInitialized()
+{
+    if (m_impl->m_worldBodies) m_impl->m_step.noteWorld(*m_impl->m_worldBodies);
+    return true;
 }
 
 void btFemSoftBodySolver::predictMotion(btScalar timeStep)

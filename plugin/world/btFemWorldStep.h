@@ -38,6 +38,9 @@ public:
     /// Call in collision detection: stores the state of a rigid body before the rigid solver.
     void noteBeforeSolve(const btCollisionObject& object) { m_group.noteBeforeSolve(object); }
 
+    /// Call during collision detection, with the world's soft bodies: notes its constraints. By any thread.
+    void noteWorld(const btAlignedObjectArray<btSoftBody*>& softBodies) { m_rewindSolver.noteWorld(softBodies); }
+
     /// See ArticulatedBodies::assumeForcesGiven.
     void assumeForcesGiven(const bullet_fem::Vec3& gravity)
     {

@@ -35,7 +35,12 @@ btTransform moved(double x, double y, double z)
 /// A world with a floor, and what its scenes consist of.
 struct RewindScene
 {
-    explicit RewindScene(Coupling coupling) : m_fem(strict()), m_world(m_fem, coupling) { m_world.addFloorBox(); }
+    /// `isReferred`: whether bodies refer to their constraints (disableCollisionsBetweenLinkedBodies).
+    explicit RewindScene(Coupling coupling, bool isReferred = true)
+        : m_isReferred(isReferred), m_fem(strict()), m_world(m_fem, coupling)
+    {
+        m_world.addFloorBox();
+    }
     ~RewindScene()
     {
         for (const auto& constraint : m_constraints) m_world.bullet().removeConstraint(constraint.get());
@@ -67,13 +72,14 @@ struct RewindScene
     }
 
     template <class Constraint>
-    Constraint& add(Constraint* constraint, bool isReferred = true)
+    Constraint& add(Constraint* constraint)
     {
         m_constraints.emplace_back(constraint);
-        m_world.bullet().addConstraint(constraint, isReferred);
+        m_world.bullet().addConstraint(constraint, m_isReferred);
         return *constraint;
     }
 
+    const bool m_isReferred;
     btFemSoftBodySolver m_fem;
     SoftWorld m_world;
     std::vector<btRigidBody*> m_rigid;
@@ -88,6 +94,7 @@ struct NamedScene
     std::function<void(RewindScene&)> m_build;
     int m_steps = 120;
     double m_off = 2e-4;  // maximum distance between places with both couplings [m]
+    bool m_isReferred = true;
 };
 
 void rigidOnSoft(RewindScene& scene)
@@ -318,6 +325,20 @@ const NamedScene kScenes[] = {{"rigidOnSoft", rigidOnSoft},
                               {"limb", limb},
                               {"carriedByAnchors", carriedByAnchors}};
 
+// The scenes with constraints, to which no body refers.
+std::vector<NamedScene> unreferred()
+{
+    std::vector<NamedScene> scenes;
+    for (NamedScene scene : kScenes)
+    {
+        RewindScene trial(Coupling::swap);
+        scene.m_build(trial);
+        scene.m_isReferred = false;
+        if (!trial.m_constraints.empty()) scenes.push_back(scene);
+    }
+    return scenes;
+}
+
 class SwapBesideCoupled : public testing::TestWithParam<NamedScene>
 {
 };
@@ -331,7 +352,7 @@ TEST_P(SwapBesideCoupled, HasTheSameMotion)
     std::vector<Vec3> places[2];
     for (const Coupling coupling : {Coupling::swap, Coupling::coupled})
     {
-        RewindScene scene(coupling);
+        RewindScene scene(coupling, GetParam().m_isReferred);
         GetParam().m_build(scene);
         for (int k = 0; k < GetParam().m_steps; ++k)
         {
@@ -349,6 +370,8 @@ TEST_P(SwapBesideCoupled, HasTheSameMotion)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SwapBesideCoupled, testing::ValuesIn(kScenes),
+                         [](const auto& scene) { return scene.param.m_name; });
+INSTANTIATE_TEST_SUITE_P(UnreferredConstraints, SwapBesideCoupled, testing::ValuesIn(unreferred()),
                          [](const auto& scene) { return scene.param.m_name; });
 
 // Calls a function at the end of a step's rigid part.
@@ -392,9 +415,10 @@ TEST(RigidRewind, LeavesBodiesWhereACallbackHasPutThem)
 
 TEST(RigidRewind, OutlivesBodiesAndConstraintsThatACallbackDeletes)
 {
-    for (const auto build : {arm, bridge})
+    for (const auto& [build, isReferred] :
+         {std::pair(arm, true), std::pair(bridge, true), std::pair(arm, false), std::pair(bridge, false)})
     {
-        RewindScene scene(Coupling::swap);
+        RewindScene scene(Coupling::swap, isReferred);
         build(scene);
         scene.m_world.step(60);
         std::function<void()> drop = [&]
@@ -455,15 +479,14 @@ TEST(RigidRewind, SparesConstraintsThatSoftBodiesRelieve)
     }
 }
 
-// No body refers to the constraint: the island cannot be put back, but its constraint still holds.
 TEST(RigidRewind, KeepsConstraintsThatNoBodyRefersTo)
 {
-    RewindScene scene(Coupling::swap);
+    RewindScene scene(Coupling::swap, false);
     btRigidBody& plate = scene.addBox(5, 0.5, 0.4, {1, 0.4, 0.05});
     for (const double y : {-0.2, 0.2})
-        scene.add(new btPoint2PointConstraint(plate, btVector3(btScalar(-0.5), btScalar(y), 0)), false);
+        scene.add(new btPoint2PointConstraint(plate, btVector3(btScalar(-0.5), btScalar(y), 0)));
     for (const double y : {-0.2, 0.2})
-        scene.add(new btPoint2PointConstraint(plate, btVector3(btScalar(0.5), btScalar(y), 0)), false);
+        scene.add(new btPoint2PointConstraint(plate, btVector3(btScalar(0.5), btScalar(y), 0)));
     scene.addSoftCube(0.5, 0.53);
     scene.m_world.step(120);
     EXPECT_LT(norm(vec3(plate.getCenterOfMassPosition()) - Vec3{0.5, 0, 0.4}), 0.01);
