@@ -168,6 +168,7 @@ BodySnapshot snapshotOf(const Body& body)
     if (input.m_mass != state.m_mass) s.m_factor.m_mass = input.m_mass;
     if (input.m_fixed != state.m_fixed) s.m_factor.m_fixed = input.m_fixed;
     s.m_complianceScale = body.m_workspace.scratch().m_complianceScale;
+    s.m_presentSteps = body.m_workspace.scratch().m_presentSteps;
     s.m_x = state.m_x;
     s.m_v = state.m_v;
     s.m_mass = state.m_mass;
@@ -219,6 +220,7 @@ void check(const BodySnapshot& s, const BodyModel& model)
     s.m_actuators.validate(model.mesh());
     if (!(s.m_complianceScale > 0) || !std::isfinite(s.m_complianceScale))
         reject("the compliance scale is ", s.m_complianceScale, ", not in (0, inf)");
+    if (s.m_presentSteps < 0) reject("the steps with the present compliance are ", s.m_presentSteps, ", not >= 0");
 }
 
 FactorInput factorInputOf(const BodySnapshot& s)
@@ -252,6 +254,7 @@ void restore(const BodySnapshot& s, Body& body)
     state.m_mostStep = s.m_mostStep;
     StepScratch& scratch = body.m_workspace.scratch();
     scratch.m_complianceScale = s.m_complianceScale;
+    scratch.m_presentSteps = s.m_presentSteps;
     scratch.m_velocity = s.m_v;
     std::fill(scratch.m_push.begin(), scratch.m_push.end(), Vec3());
     scratch.m_isPushed = false;

@@ -83,6 +83,8 @@ struct StepScratch
     Actuation m_actuation;             ///< linearized actuators of this step
     /// Learnt in contact: A^-1 at the surface is about this times the warped A0^-1 [-], > 0.
     double m_complianceScale = 1;
+    /// Steps in which contact still forms its compliance from the present A in place of A0, >= 0.
+    int m_presentSteps = 0;
     ConjugateGradientScratch m_solver;
     /// Lower bound of the numerical damping [-]: 1 in a step that would strain elements too much before their forces
     /// are known, else 0.

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #pragma once
 
+#include <cstddef>
+
 // Values of the contact solver that no formula gives. Bounds of rounding, sizes of memory and lanes are where they are
 // used. "Loses": what was measured without the rule, in tests or in bulletfem_bench_games.
 namespace bullet_fem
@@ -54,6 +56,10 @@ inline constexpr double kTooStiff = 1.5, kScaleMargin = 1.2, kForgetting = 0.99;
 // True over predicted response below which W counts as too soft, and outer iterations do not stand still [-]. Loses:
 // StaleContact.
 inline constexpr double kTooSoft = 0.7;
+// Steps in which W of a body with contacts and joints is that of the present A, after kTooStiff or kTooSoft; maximum
+// product of its nodes and elements, some 5 ms. Loses: beams that are thrown (HardPressedBeam).
+inline constexpr int kPresentSteps = 20;
+inline constexpr std::size_t kMaxPresentWork = 10'000;
 
 // --- Sweeps ---
 

@@ -25,8 +25,13 @@ public:
     /// Without the rigid response.
     void applyElastic(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
+    /// The elastic response of A itself, without the scale, by conjugate gradients to |r| <= 1e-4 |impulses|. A must be
+    /// complete, see completeWarpedSystem().
+    void applyPresent(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+
 private:
-    void solve(const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
+    std::vector<Vec3>& rightSide(const std::vector<Vec3>& in) const;
+    void solve(double tolerance, const std::vector<Vec3>& in, std::vector<Vec3>& out) const;
 
     Body& m_body;
     double m_scale;  // of the elastic response [-]

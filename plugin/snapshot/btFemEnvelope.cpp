@@ -9,7 +9,7 @@ using namespace bullet_fem;
 namespace
 {
 
-constexpr std::uint32_t kVersion = 17;  // raised at each change of the format
+constexpr std::uint32_t kVersion = 18;  // raised at each change of the format
 constexpr std::uint32_t kByteOrder = 0x01020304, kOtherByteOrder = 0x04030201;
 constexpr std::array<char, 8> kMagic = {'B', 'u', 'l', 'l', 'F', 'E', 'M', '\n'};
 

@@ -102,6 +102,8 @@ void SoftBodyContacts::endCorrection()
     double aloneWork = 0;                    // predicted work of every new impulse alone
     double impulses = 0;                     // sum of the new impulses [N s]
     m_allWork = 0;                           // approximate work of all impulses
+    const bool isJudged = mayBePresent();
+    const double ofRigid = isJudged ? rigidWork() : 0;
     for (int e = 0; e < size(); ++e)
     {
         const Vec3 impulse = m_impulse[e] - m_applied[e];
@@ -113,8 +115,39 @@ void SoftBodyContacts::endCorrection()
         trueWork += dot(impulse, trueVelocity(e) - before(e));
         predictedWork += dot(impulse, known(e) - before(e));
     }
-    if (!m_mixed && predictedWork > kNoise * std::max(m_allWork, aloneWork)) learn({trueWork, predictedWork, impulses});
+    const bool isNews = !m_mixed && predictedWork > kNoise * std::max(m_allWork, aloneWork);
     m_mixed = false;
+    const Lesson lesson = {trueWork, predictedWork, impulses};
+    if (!isNews || !hasContacts()) return;
+    if (isJudged)
+        judge(lesson, ofRigid);
+    else
+        learn(lesson);
+}
+
+// Only joints and contacts on one body are known to need it.
+bool SoftBodyContacts::mayBePresent() const
+{
+    const std::size_t work = static_cast<std::size_t>(m_points.slots()) * m_body.m_body->m_model->mesh().tets().size();
+    return m_dense && hasContacts() && m_firstJoint < size() && work <= kMaxPresentWork;
+}
+
+// Work of the new impulses on the rigid velocities by them, for a dense body.
+double SoftBodyContacts::rigidWork()
+{
+    const auto forEachNew = [this](const auto& visit)
+    {
+        for (int e = 0; e < size(); ++e)
+            if (const RigidSide& rigid = m_points.rigid(e); rigid.component() >= 0)
+                visit(rigid, m_impulse[e] - m_applied[e], m_motions[rigid.component()]);
+    };
+    double work = 0;
+    forEachNew([](const RigidSide& rigid, const Vec3& impulse, RigidMotion& motion)
+               { motion += rigid.response(impulse); });
+    forEachNew([&work](const RigidSide& rigid, const Vec3& impulse, const RigidMotion& motion)
+               { work += dot(impulse, rigid.velocity(motion)); });
+    std::fill(m_motions.begin(), m_motions.end(), RigidMotion());
+    return work;
 }
 
 // Both sides share the point of action of an impulse, so that momenta are conserved: for points that of the contact,
@@ -162,7 +195,7 @@ void SoftBodyContacts::learn(const Lesson& lesson)
 {
     const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
     const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
-    if (!(softer || stiffer) || !isAboveRounding(lesson) || !hasContacts()) return;
+    if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
     const double factor = kScaleMargin * lesson.m_trueWork / lesson.m_predictedWork;
@@ -170,7 +203,25 @@ void SoftBodyContacts::learn(const Lesson& lesson)
     m_scale *= factor;
     m_body.m_body->m_workspace.scratch().m_complianceScale = m_scale;
     if (m_points.points() > 0) m_points.scaleElastic(factor);
-    if (!m_dense) return;
+    if (m_dense) followCompliance();
+}
+
+// No scale mends W in directions in which it is too stiff and too soft.
+void SoftBodyContacts::judge(const Lesson& lesson, double rigidWork)
+{
+    const double ofTrue = lesson.m_trueWork - rigidWork, ofW = lesson.m_predictedWork - rigidWork;
+    const bool isFit = ofTrue > kTooSoft * ofW && ofTrue < kTooStiff * ofW;
+    if (isFit || !isAboveRounding(lesson)) return;
+    m_tooSoft = m_tooSoft || !(ofTrue > kTooSoft * ofW);
+    m_body.m_body->m_workspace.scratch().m_presentSteps = kPresentSteps;
+    if (m_isPresent) return;
+    formPresent();
+    m_learnt = true;
+    followCompliance();
+}
+
+void SoftBodyContacts::followCompliance()
+{
     formOwn();
     m_working.reset(m_points, static_cast<int>(m_motions.size()));
 }

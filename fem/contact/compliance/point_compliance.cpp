@@ -118,6 +118,12 @@ void PointCompliance::set(std::size_t i, std::size_t j, double value)
     column(j)[i] = column(i)[j] = static_cast<float>(value);
 }
 
+void PointCompliance::setResponse(std::size_t slot, std::size_t j, const Vec3& velocity)
+{
+    for (std::size_t i = 3 * slot; i < 3 * slot + 3; ++i)
+        if (slot != j / 3 || i >= j) set(i, j, velocity[static_cast<int>(i - 3 * slot)]);
+}
+
 Vec3 PointCompliance::read(int point, const std::vector<double>& slotValues) const
 {
     Vec3 sum;

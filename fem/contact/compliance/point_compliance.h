@@ -63,8 +63,10 @@ public:
     /// Length of a vector over the slots, three components each, padded for kernels.
     std::size_t order() const { return padded(3 * static_cast<std::size_t>(slots()), kResponsePadding); }
 
-    /// Entries of N that form() leaves out: set(i, j) sets (j, i) as well; indices are three times a slot plus an axis.
+    /// Sets entries of N in place of those of form(): set(i, j) sets (j, i) as well; indices are three times a slot
+    /// plus an axis. setResponse(slot, j) sets those of a slot, but no entry of its own column twice.
     void set(std::size_t i, std::size_t j, double value);
+    void setResponse(std::size_t slot, std::size_t j, const Vec3& velocity);
 
     /// The rigid part of a point, and of a slot.
     const RigidSide& rigid(int point) const { return m_rigid[point]; }

@@ -38,6 +38,8 @@ double speedByLoads(const Body& body, double step)
 void SoftBodyContacts::clear(const ContactBody& body, const StepSettings& settings)
 {
     m_body = body;
+    m_settings = settings;
+    m_settings.m_threads = nullptr;  // bodies share the threads
     m_step = settings.m_step;
     m_theta = StepCoefficients(settings, *body.m_body).theta();
     const std::vector<double>& mass = body.m_body->m_state.m_mass;
@@ -96,7 +98,7 @@ void SoftBodyContacts::assemble(int denseLimit, double step)
     m_nodeIn.resize(nodes);
     m_nodeOut.resize(nodes);
     m_loadSpeed = speedByLoads(*m_body.m_body, step);
-    m_formed = m_tooSoft = m_mixed = false;
+    m_formed = m_tooSoft = m_mixed = m_isPresent = false;
     m_firstJoint = std::min(m_firstJoint, size());
     m_firstPoint = m_dense ? 0 : m_firstJoint;
     m_points.clear(nodes);
@@ -137,9 +139,35 @@ void SoftBodyContacts::form()
     if (m_points.points() == 0) return;
     findShares();
     m_points.form(m_body, m_scale, m_shares);
+    int& present = m_body.m_body->m_workspace.scratch().m_presentSteps;
+    if (present > 0 && mayBePresent())
+        formPresent();
+    else
+        formGroups();
+    if (present > 0) --present;
+    if (m_dense) formOwn();
+}
+
+void SoftBodyContacts::formPresent()
+{
+    m_isPresent = true;
+    completeWarpedSystem(*m_body.m_body, m_settings);
+    const WarpedCompliance W(*m_body.m_body, 1);
+    const std::vector<int>& nodes = m_points.nodes();
+    for (std::size_t j = 0; j < 3 * nodes.size(); ++j)
+    {
+        std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
+        m_nodeIn[nodes[j / 3]][static_cast<int>(j % 3)] = 1;
+        W.applyPresent(m_nodeIn, m_nodeOut);
+        for (std::size_t t = j / 3; t < nodes.size(); ++t) m_points.setResponse(t, j, m_nodeOut[nodes[t]]);
+    }
+    formGroups();
+}
+
+void SoftBodyContacts::formGroups()
+{
     for (int e = m_firstPoint; e < size(); ++e)
         if (isGroup(m_ends[e])) formGroup(e);
-    if (m_dense) formOwn();
 }
 
 // The slots' shares in the rigid motion.
@@ -166,21 +194,20 @@ void SoftBodyContacts::formGroup(int e)
     const WarpedCompliance P(*m_body.m_body, m_scale);
     const std::vector<int>& nodes = m_points.nodes();
     const std::size_t own = 3 * static_cast<std::size_t>(m_points.slot(e - m_firstPoint));
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t j = own; j < own + 3; ++j)
     {
         Vec3 unit;
-        unit[static_cast<int>(c)] = 1;
+        unit[static_cast<int>(j - own)] = 1;
         std::fill(m_nodeIn.begin(), m_nodeIn.end(), Vec3());
         scatter(m_ends[e], unit, m_nodeIn);
-        P.applyElastic(m_nodeIn, m_nodeOut);
-        const auto set = [&](std::size_t slot, const Vec3& w)
-        {
-            for (std::size_t i = 0; i < 3; ++i)
-                if (3 * slot != own || i >= c) m_points.set(3 * slot + i, own + c, w[static_cast<int>(i)]);
-        };
-        for (std::size_t t = 0; t < nodes.size(); ++t) set(t, m_nodeOut[nodes[t]]);
+        if (m_isPresent)
+            P.applyPresent(m_nodeIn, m_nodeOut);
+        else
+            P.applyElastic(m_nodeIn, m_nodeOut);
+        for (std::size_t t = 0; t < nodes.size(); ++t) m_points.setResponse(t, j, m_nodeOut[nodes[t]]);
         for (int f = e; f < size(); ++f)
-            if (isGroup(m_ends[f])) set(m_points.slot(f - m_firstPoint), read(m_ends[f], m_nodeOut));
+            if (isGroup(m_ends[f]))
+                m_points.setResponse(m_points.slot(f - m_firstPoint), j, read(m_ends[f], m_nodeOut));
     }
 }
 

@@ -64,7 +64,7 @@ public:
 
     int size() const { return static_cast<int>(m_ends.size()); }
 
-    /// True if the last correction increased the scale of W, and with it compliance().
+    /// True if the last correction changed W, and with it compliance().
     bool hasLearnt() const { return m_learnt; }
 
     /// True if the body has responded much less than W predicted, in any correction of this problem.
@@ -137,7 +137,8 @@ public:
     /// The right-hand side of the body's next correction: the impulses not applied yet; without a body if there is
     /// nothing to solve. It ends when its residual is below the step's tolerance of the right-hand side, or of `floor`,
     /// a share of all impulses on the body [-], >= 0. Call endCorrection after the solve: it compares the
-    /// result with W, and scales W up if it was too stiff, unless the velocities are lost in rounding.
+    /// result with W, and scales W up if it was too stiff, unless the velocities are lost in rounding. For small bodies
+    /// with contacts and joints, W is formed from A itself if it was too stiff or too soft, now and in the next steps.
     ImpulseResponse beginCorrection(const StepSettings& settings, double floor);
     void endCorrection();
 
@@ -176,6 +177,9 @@ private:
     Vec3 known(int e) const { return m_dense ? m_points.read(e, m_slotVelocity) : m_velocity[e]; }
     Vec3 before(int e) const { return m_dense ? m_points.read(e, m_slotBefore) : m_before[e]; }
     void findShares();
+    bool mayBePresent() const;
+    void formPresent();
+    void formGroups();
     void formGroup(int e);
     void measureSlots();
     void estimateDiagonal();
@@ -186,19 +190,24 @@ private:
     void giveUpExpected(const StepSettings& settings);
     void formOwn();
     void see(int e);
+    double rigidWork();
     bool isAboveRounding(const Lesson& lesson) const;
     void learn(const Lesson& lesson);
+    void judge(const Lesson& lesson, double rigidWork);
+    void followCompliance();
 
     ContactBody m_body;
     bool m_dense = true;
     double m_loadSpeed = 0;  // [m/s]
-    double m_step = 0;       // h [s]
-    double m_theta = 1;      // see StepCoefficients
-    double m_mass = 0;       // [kg]
+    StepSettings m_settings;
+    double m_step = 0;   // h [s]
+    double m_theta = 1;  // see StepCoefficients
+    double m_mass = 0;   // [kg]
     bool m_formed = false;
-    int m_added = 0;       // number of points
-    int m_firstJoint = 0;  // first side of a joint
-    int m_firstPoint = 0;  // first side in m_points: for a dense body all, else those of joints
+    bool m_isPresent = false;  // W is that of A
+    int m_added = 0;           // number of points
+    int m_firstJoint = 0;      // first side of a joint
+    int m_firstPoint = 0;      // first side in m_points: for a dense body all, else those of joints
     std::vector<End> m_ends;
     std::vector<Vec3> m_impulse;  // per side: total impulse
     std::vector<Vec3> m_applied;  // per side: impulse included in the body's true velocities

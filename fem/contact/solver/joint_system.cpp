@@ -52,6 +52,7 @@ void JointSystem::begin()
     m_count = static_cast<int>(m_rows.problem().m_joints.size());
     m_partCount = 0;
     m_work = false;
+    m_isLinear = false;
     m_turned.dropAll();
     if (isEmpty()) return;
     for (std::vector<double>* values : {&m_shift, &m_change}) values->assign(unknowns(), 0);
@@ -74,6 +75,8 @@ void JointSystem::begin()
     }
     m_turned.find(m_first, m_isHeld);
     chooseParts();
+    m_isLinear = m_partCount == 1 && !m_turned.hasAny();
+    for (int i = 0; i < unknowns(); ++i) m_isLinear = m_isLinear && !m_isHeld[i] && !isLimited(i / 3, i % 3);
     reform();
 }
 
@@ -350,18 +353,22 @@ bool JointSystem::holdLimited(const Part& part)
     bool any = false;
     for (int k = part.m_begin; k < part.m_end; ++k)
     {
-        ContactRow& r = row(k);
-        const bool isRound = r.m_maxImpulse < Joint::kUnlimited;
         for (int i = 0; i < 3; ++i)
         {
-            const bool isLimited = isRound || r.m_limit[i] < Joint::kUnlimited || r.m_lower[i] > -Joint::kUnlimited;
-            if (!isLimited || m_isHeld[3 * k + i]) continue;
+            if (!isLimited(k, i) || m_isHeld[3 * k + i]) continue;
             m_isHeld[3 * k + i] = 1;
-            any = r.m_held = true;
+            any = row(k).m_held = true;
         }
     }
     if (any) ++m_changes;
     return any;
+}
+
+bool JointSystem::isLimited(int joint, int axis) const
+{
+    const ContactRow& r = row(joint);
+    return r.m_maxImpulse < Joint::kUnlimited || r.m_limit[axis] < Joint::kUnlimited ||
+           r.m_lower[axis] > -Joint::kUnlimited;
 }
 
 // Limits are enforced even if m_patience is used up.

@@ -30,6 +30,10 @@ public:
 
     bool isEmpty() const { return m_count == 0; }
 
+    /// True if solve() satisfies all joints exactly, whatever the velocities: none has a limit, and one factor of the
+    /// present W serves all.
+    bool isLinear() const { return m_isLinear; }
+
     /// True if all joints read their residuals and change their impulses at once: no working set needs their sides.
     /// `work`: whether the sides are in working sets of dense bodies.
     bool goAtOnce() const { return !isEmpty() && m_turned.hasAll(); }
@@ -79,6 +83,7 @@ private:
     double sweepHeld(Part& part, int joint);
     bool holdBeyondLimits(Part& part, double& largest);
     bool holdLimited(const Part& part);
+    bool isLimited(int joint, int axis) const;
     bool isBeyondLimits(const ContactRow& joint, const Vec3& impulse) const;
     double takeChanges(const Part& part);
     Vec3 changeOf(int joint) const;
@@ -95,6 +100,7 @@ private:
     std::vector<unsigned char> m_isHeld;  // per unknown: at its limit, or nothing to solve for
     std::vector<unsigned char> m_isIdle;  // per unknown: nothing to solve for
     std::vector<double> m_shift, m_change;  // per unknown
+    bool m_isLinear = false;
     int m_changes = 0;
     int m_patience = 0;  // remaining holds and releases in this step
 };

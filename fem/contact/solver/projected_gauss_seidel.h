@@ -22,7 +22,7 @@ class ProjectedGaussSeidel
 public:
     /// Both must outlive it.
     ProjectedGaussSeidel(ContactRows& rows, JointSystem& joints)
-        : m_rows(rows), m_joints(joints), m_mixing(rows), m_coarse(rows), m_newton(rows)
+        : m_rows(rows), m_joints(joints), m_mixing(rows), m_coarse(rows), m_newton(rows, joints)
     {
     }
 

@@ -116,11 +116,12 @@ double TruncatedNewton::precondition(const std::vector<int>& working)
     return sum;
 }
 
-// The rows' impulses become start + ofX x + ofD d; the velocities follow.
+// The rows' impulses become start + ofX x + ofD d; joints and velocities follow. W is then its Schur complement.
 void TruncatedNewton::move(const std::vector<int>& working, double ofX, double ofD)
 {
     forEachMoving(working, [&](const Row& of, ContactRow& row)
                   { m_rows.change(row, inWorld(row, of.m_start + ofX * of.m_x + ofD * of.m_d)); });
+    if (m_joints.isLinear()) m_joints.solve();
 }
 
 // W d, from the velocities at start + x + d.

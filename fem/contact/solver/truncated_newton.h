@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fem/contact/constraints/contact_rows.h"
+#include "fem/contact/solver/joint_system.h"
 
 namespace bullet_fem
 {
@@ -12,13 +12,14 @@ namespace bullet_fem
 /// Truncated nonsmooth Newton steps between sweeps of projected Gauss-Seidel [Graeser & Kornhuber 2009]: conjugate
 /// gradients over the rows that the last sweep left sticking, and the normals of those that slide; then projection to
 /// the friction cones and an exact line search, which stays in the cones because they are convex. Solves the rows at
-/// once where sweeps pass impulses on slowly: stiff bodies between jaws, heavy bodies on light ones, towers. Steps
-/// that do not pay become rare. Grows with the rows, never shrinks.
+/// once where sweeps pass impulses on slowly: stiff bodies between jaws, heavy bodies on light ones, towers. Joints
+/// that are solved exactly follow every change, so that the steps solve for contacts and joints together. Steps that do
+/// not pay become rare. Grows with the rows, never shrinks.
 class TruncatedNewton
 {
 public:
-    /// The rows must outlive it.
-    explicit TruncatedNewton(ContactRows& rows) : m_rows(rows) {}
+    /// Both must outlive it.
+    TruncatedNewton(ContactRows& rows, JointSystem& joints) : m_rows(rows), m_joints(joints) {}
 
     /// Call when the rows are assembled anew.
     void begin();
@@ -62,6 +63,7 @@ private:
     }
 
     ContactRows& m_rows;
+    JointSystem& m_joints;
     std::vector<Row> m_of;     // per working row
     int m_waited = 0;          // sweeps since the last step
     int m_interval = 0;        // sweeps from one step to the next

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -108,6 +109,49 @@ TEST_F(JointSystemTest, BearsJointsThatContradictEachOther)
     EXPECT_LT(std::min(miss(m_joints[0]), miss(m_joints[1])), 1e-6);
     EXPECT_LT(miss(m_joints[2]), 1e-6);
     for (const Joint& joint : m_joints) EXPECT_LT(norm(joint.m_impulse), 3e3);
+}
+
+// A stiff beam on joints at both ends that a rigid proxy bends: sweeps would pass the load on between contacts and
+// joints, and ten outer iterations with 246 of them would not converge.
+TEST(HeldBeam, IsBentWithinFewSweeps)
+{
+    constexpr int kCells = 20;
+    Body beam = makeBody(makeBox({1, 0.05, 0.05}, {kCells, 1, 1}), elasticMaterial(1e9, 0.3));
+    const std::vector<Vec3>& x = beam.m_state.m_x;
+    const std::shared_ptr<ComplianceCache> cache = makeComplianceCache(beam.m_model);
+    ContactProblem problem;
+    problem.m_bodies = {{&beam, cache.get()}};
+    problem.m_rigidProxies.resize(1);
+    problem.m_rigidProxies[0].m_linearVelocity = {0, 0, 0.01};
+    for (int i = 0; i < static_cast<int>(x.size()); ++i)
+    {
+        if (std::fabs(x[i].x - 0.5) > 0.499) problem.m_handleNodes.push_back(i);
+        if (std::fabs(x[i].x - 0.5) > 0.06 || x[i].z > 0.01) continue;
+        ContactPoint contact;
+        contact.m_soft = {0, {i, i, i}, {1, 0, 0}};
+        contact.m_rigidProxy = 0;
+        contact.m_point = x[i];
+        contact.m_normal = {0, 0, 1};
+        problem.m_contacts.push_back(contact);
+    }
+    problem.m_handleBlocks.assign(problem.m_handleNodes.size(), Mat3::identity());
+    for (std::size_t k = 0; k < problem.m_handleNodes.size(); ++k)
+    {
+        Joint joint;
+        joint.m_a.m_body = 0;
+        joint.m_a.m_first = static_cast<int>(k);
+        joint.m_a.m_count = 1;
+        joint.m_b.m_point = x[problem.m_handleNodes[k]];
+        problem.m_joints.push_back(joint);
+    }
+    ContactSettings settings;
+    ContactSolver solver;
+    solveFreeMotion(beam, settings.m_step);
+    const ContactReport report = solver.solve(problem, settings);
+    RecordProperty("sweeps", report.m_sweeps);
+    EXPECT_TRUE(report.m_converged);
+    EXPECT_LT(report.m_violation, 1e-5);
+    EXPECT_LT(report.m_sweeps, 40);
 }
 
 // A joint beyond its impulse limit stays at the limit, and the other joints carry the rest.

@@ -10,8 +10,8 @@
 namespace bullet_fem
 {
 
-/// The complete state that a body's next steps depend on: state, compliance scale learnt in contact, and the inputs of
-/// its factor.
+/// The complete state that a body's next steps depend on: state, what was learnt in contact about its compliance, and
+/// the inputs of its factor.
 struct BodySnapshot
 {
     std::uint64_t m_shapeMark = 0;         ///< hash of the rest shape: mesh, filled fractions and materials
@@ -19,6 +19,7 @@ struct BodySnapshot
     /// m_step, m_mass and m_fixed of the factor; masses and fixed nodes are empty if equal to those of the state.
     FactorInput m_factor;
     double m_complianceScale = 1;                      ///< as in StepScratch [-], > 0
+    int m_presentSteps = 0;                            ///< as in StepScratch, >= 0
     std::vector<Vec3> m_x;                             ///< positions, as in BodyState [m]
     std::vector<Vec3> m_v;                             ///< velocities [m/s]
     std::vector<double> m_mass;                        ///< node masses [kg]
@@ -100,7 +101,7 @@ void transfer(Bytes& bytes, ElementMaterials& materials)
 template <class Bytes>
 void transfer(Bytes& bytes, BodySnapshot& s)
 {
-    bytes(s.m_shapeMark, s.m_path, s.m_factor, s.m_complianceScale, s.m_x, s.m_v, s.m_mass, s.m_fixed,
+    bytes(s.m_shapeMark, s.m_path, s.m_factor, s.m_complianceScale, s.m_presentSteps, s.m_x, s.m_v, s.m_mass, s.m_fixed,
           s.m_lastIncrement, s.m_elementRotation, s.m_bodyRotation, s.m_initialStress, s.m_initialStressChanges,
           s.m_plasticStrain, s.m_equivalentPlasticStrain, s.m_relaxedStrain, s.m_lawHistory, s.m_actuators,
           s.m_leastStep, s.m_mostStep);
