@@ -17,12 +17,12 @@ namespace
 constexpr double kPassedOnShare = 0.05;
 
 // True if pins, joints or Bullet's constraints do not hold a side: the mobility of a held one is not that of its mass.
-bool isFree(const ImpactSide& side)
+bool isFree(const ImpactSide& side, const RigidProxies& rigid)
 {
     if (side.m_soft)
         return side.m_soft->m_joints.m_now.empty() && wholeMotion(side.m_soft->m_body, side.m_component).canMove();
     const btRigidBody* body = movableBody(*side.m_rigid);
-    return !body || body->getNumConstraintRefs() == 0;
+    return !body || !rigid.isConstrained(*body);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ const ImpactGroups::Noted& ImpactGroups::notedOf(std::size_t k)
     const auto set = [&](ImpactSide side, bool isHeld, ImpactSide& to)
     {
         if (isHeld) return;
-        noted.m_isFree = noted.m_isFree && isFree(side);
+        noted.m_isFree = noted.m_isFree && isFree(side, m_scene->m_rigid);
         if (side.m_soft || movableBody(*side.m_rigid) ||
             m_scene->m_problem.m_rigidProxies[patch.m_rigidProxy].canMove())
             to = side;

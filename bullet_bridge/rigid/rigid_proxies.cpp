@@ -93,6 +93,11 @@ void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
         m_history.noteBeforeSolve(*body);
 }
 
+bool RigidProxies::isConstrained(const btRigidBody& body) const
+{
+    return body.getNumConstraintRefs() > 0 || (m_rewind && m_rewind->isConstrained(body));
+}
+
 void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
 {
     m_phase = phase;

@@ -66,6 +66,9 @@ public:
     /// True if Bullet has moved the object already, while its proxy is at the start of the step.
     bool isRewound(int rigidProxy) const { return m_sources[rigidProxy].m_rewound; }
 
+    /// True if a constraint of Bullet's is known to act on the body.
+    bool isConstrained(const btRigidBody& body) const;
+
     bool holdsRewound() const
     {
         return std::any_of(m_sources.begin(), m_sources.end(), [](const Source& source) { return source.m_rewound; });

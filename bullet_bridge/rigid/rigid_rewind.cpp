@@ -219,6 +219,8 @@ void RigidRewind::readConstraints()
         const btJointFeedback* feedback = isOwn ? &known.m_feedback : constraint.getJointFeedback();
         const int a = indexOf(&constraint.getRigidBodyA()), b = indexOf(&constraint.getRigidBodyB());
         if (a >= 0 && b >= 0) join(a, b);
+        if (a >= 0) m_bodies[a].m_isConstrained = true;
+        if (b >= 0) m_bodies[b].m_isConstrained = true;
         if (feedback && known.m_isEnabled)
         {
             if (a >= 0) explain(m_bodies[a], feedback->m_appliedForceBodyA * btScalar(m_step));

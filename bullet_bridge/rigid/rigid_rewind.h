@@ -57,6 +57,13 @@ public:
         return k >= 0 && m_bodies[k].m_isBack ? &m_bodies[k].m_byBullet : nullptr;
     }
 
+    /// True if a constraint that is known acts on the object.
+    bool isConstrained(const btCollisionObject& object) const
+    {
+        const int k = indexOf(&object);
+        return k >= 0 && m_bodies[k].m_isConstrained;
+    }
+
     /// True if the object is a noted body.
     bool isNoted(const btCollisionObject& object) const { return indexOf(&object) >= 0; }
 
@@ -100,6 +107,7 @@ private:
         btScalar m_pushed = 0;           // largest displacement that Bullet may have corrected a penetration by [m]
         int m_parent = 0;                // union-find
         bool m_isMoved = false;          // by Bullet: it is awake
+        bool m_isConstrained = false;
         bool m_isBad = false, m_isBack = false, m_isWoken = false;
     };
 

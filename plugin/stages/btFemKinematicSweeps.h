@@ -9,8 +9,9 @@
 class btBroadphaseInterface;
 class btSoftBody;
 
-/// The ways of kinematic rigid bodies in a step. Bullet's broadphase has their bounds at its end alone, so bodies
-/// beside that would not meet a wall that passes them within the step.
+/// The ways of kinematic rigid bodies and of links of multibodies in a step. Bullet's broadphase has the bounds of the
+/// former at its end alone, of the latter at its begin, so soft bodies beside these would not meet what passes them
+/// within the step.
 class btFemKinematicSweeps
 {
 public:
@@ -18,7 +19,7 @@ public:
     /// Allocates for more than ever before.
     void list(btBroadphaseInterface& broadphase, double step);
 
-    /// True if one sweeps over the bounds of a soft body and has left them at the end of the step.
+    /// True if one sweeps over the bounds of a soft body without being in them in the broadphase.
     bool sweepOver(const btSoftBody& soft) const;
 
     /// Widens the bounds of a soft body to the ends of such ways, so that the broadphase pairs it with the bodies.
@@ -27,11 +28,12 @@ public:
 private:
     struct Sweep
     {
-        btVector3 m_low, m_high;  // bounds at the end of the step [m]
-        btVector3 m_way;          // of the step [m]
+        btVector3 m_low, m_high;  // bounds in the broadphase [m]
+        btVector3 m_way;          // from there to the other end of the step's way [m]
 
         bool passes(const btSoftBody& soft) const;
     };
 
     std::vector<Sweep> m_sweeps;
+    std::vector<btVector3> m_scratch;
 };

@@ -142,11 +142,11 @@ void RigidSearch::listOverlapping(const std::vector<FemSoftBody*>& bodies)
 }
 
 // True if an object that overlaps a FEM body can move, and is on joints or overlaps another object, too.
-bool RigidSearch::mayBeStopped(const btCollisionObject& object, const RigidProxy& rigidProxy) const
+bool RigidSearch::mayBeStopped(const btCollisionObject& object, int rigidProxy, const RigidProxies& rigidProxies) const
 {
-    if (!rigidProxy.canMove()) return false;
+    if (!rigidProxies.rigidProxies()[rigidProxy].canMove()) return false;
     const btRigidBody* rigid = btRigidBody::upcast(&object);
-    if (rigid == nullptr || rigid->getNumConstraintRefs() > 0) return true;
+    if (rigid == nullptr || rigidProxies.isConstrained(*rigid)) return true;
     const auto pairs = std::equal_range(m_inPairs.begin(), m_inPairs.end(), static_cast<const void*>(&object));
     return pairs.second - pairs.first > 1;
 }
@@ -215,7 +215,8 @@ void RigidSearch::listContacts(FemSoftBody& fem, double step, RigidProxies& rigi
         touching.m_alone = touching.m_alone || shape.m_alone;
         const RigidProxy& proxy = rigidProxies.rigidProxies()[rigidProxy];
         m_touched.push_back({object, rigidProxy, shape.m_first, shape.m_count, shape.m_unknown,
-                             carryingPlaneOf(*object, proxy, step), shape.m_advance, mayBeStopped(*object, proxy)});
+                             carryingPlaneOf(*object, proxy, step), shape.m_advance,
+                             mayBeStopped(*object, rigidProxy, rigidProxies)});
     }
     m_overlapping.push_back(touching);
 }

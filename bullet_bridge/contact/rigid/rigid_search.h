@@ -59,7 +59,7 @@ private:
     const ShapeRange& shapeOf(const btCollisionObject& object, int rigidProxy, double step,
                               const RigidProxies& rigidProxies);
 
-    bool mayBeStopped(const btCollisionObject& object, const RigidProxy& rigidProxy) const;
+    bool mayBeStopped(const btCollisionObject& object, int rigidProxy, const RigidProxies& rigidProxies) const;
     CarryingPlane carryingPlaneOf(const btCollisionObject& object, const RigidProxy& rigidProxy, double step) const;
     Vec3 advanceOf(const btCollisionObject& object, const ShapeLeaf& leaf, const RigidProxy& proxy, double step) const;
     bool givesTriangles(const ShapeLeaf& leaf);
