@@ -177,6 +177,7 @@ SoftPairReport SoftPairFinder::keep(const SoftPairSide& first, const SoftPairSid
         contact.m_slip = last.m_slip;
     }
     SoftPairReport report;
+    m_continued.assign(m_last.m_count, 0);
     report.m_limited = limit(first, second, maxContacts);
     tell(report, contacts, origins);
     return report;
