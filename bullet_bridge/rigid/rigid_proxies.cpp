@@ -275,7 +275,7 @@ LinkMotion RigidProxies::motionNow(int rigidProxy) const
     const btRigidBody* body = movableBody(object(rigidProxy));
     if (m_phase == RigidPhase::moved && body)
         return {vec3(body->getLinearVelocity()), vec3(body->getAngularVelocity())};
-    if (isMovableLink(rigidProxy)) return m_sources[rigidProxy].m_now;
+    if (isMovableLink(*this, rigidProxy)) return m_sources[rigidProxy].m_now;
     return {m_rigidProxies[rigidProxy].m_linearVelocity, m_rigidProxies[rigidProxy].m_angularVelocity};
 }
 

@@ -74,12 +74,6 @@ public:
         return std::any_of(m_sources.begin(), m_sources.end(), [](const Source& source) { return source.m_rewound; });
     }
 
-    /// True if the rigid proxy is a movable link of a multibody.
-    bool isMovableLink(int rigidProxy) const
-    {
-        return m_rigidProxies[rigidProxy].canMove() && !movableBody(object(rigidProxy));
-    }
-
     /// The velocity with which the object moves, or moved, in this step, without the gravity of the next step.
     LinkMotion motionNow(int rigidProxy) const;
 
@@ -120,5 +114,11 @@ private:
     std::vector<btVector3> m_linkVelocities;  // scratch
     ArticulatedBodies m_links;
 };
+
+/// True if the rigid proxy is a movable link of a multibody.
+inline bool isMovableLink(const RigidProxies& proxies, int rigidProxy)
+{
+    return proxies.rigidProxies()[rigidProxy].canMove() && !movableBody(proxies.object(rigidProxy));
+}
 
 }  // namespace bullet_fem

@@ -191,7 +191,7 @@ void btFemContactGroup::listOverlaps()
 void btFemContactGroup::alignLinks(std::vector<ContactPoint>& contacts) const
 {
     for (ContactPoint& contact : contacts)
-        if (m_rigid.isMovableLink(contact.m_rigidProxy)) contact.m_approach = {};
+        if (isMovableLink(m_rigid, contact.m_rigidProxy)) contact.m_approach = {};
 }
 
 void btFemContactGroup::collectJoints(const Scope& scope)
@@ -217,7 +217,7 @@ bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, b
 {
     if (m_reachesOut || (!m_rigid.links().isEmpty() && !linksToo)) return false;
     for (int k = 0; k < static_cast<int>(m_rigid.rigidProxies().size()); ++k)
-        if ((movableBody(m_rigid.object(k)) || m_rigid.isMovableLink(k)) &&
+        if ((movableBody(m_rigid.object(k)) || isMovableLink(m_rigid, k)) &&
             std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count)
             return false;
     return true;
