@@ -357,13 +357,15 @@ public:
 
     /// The stages of a step (docs/architecture.md); bodies that are not FEM are passed to Bullet's solver. Times are in
     /// s.
-    bool checkInitialized() override;
     void optimize(btAlignedObjectArray<btSoftBody*>& softBodies, bool forceUpdate = false) override;
     void predictMotion(btScalar timeStep) override;
     void processCollision(btSoftBody* body, const btCollisionObjectWrapper* other) override;
     void processCollision(btSoftBody* body, btSoftBody* other) override;
     void solveConstraints(btScalar timeStep) override;
     void updateSoftBodies() override;
+
+    /// Called by Bullet's collision detection: notes the constraints of the world. Always true.
+    bool checkInitialized() override;
     /// @}
 
 private:
