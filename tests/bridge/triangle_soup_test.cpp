@@ -9,6 +9,7 @@
 
 #include "bridge/bridge_test_shapes.h"
 #include "bridge/concave_test_shapes.h"
+#include "bullet_bridge/contact/rigid/sheet_contact.h"
 
 namespace bullet_fem
 {
@@ -55,6 +56,36 @@ TEST(TriangleSoup, APathMeetsTheFirstTriangle)
     // Lines through edges and corners between triangles count, too.
     EXPECT_GE(soup.firstCrossing({0.4, 0.4, 4}, {0.4, 0.4, -2}).m_triangle, 0);
     EXPECT_GE(soup.firstCrossing({0.2, 0.2, -4}, {0.2, 0.2, 2}).m_triangle, 0);
+}
+
+// The extension of a path through the sheet's thickness crosses a face beyond a ridge; the point meets the one below
+// it.
+TEST(TriangleSoup, APointOverAThickSlopeMeetsTheFaceBelowIt)
+{
+    const ConcaveShape shape =
+        makeTriangleMesh({2, 2, true, [](btScalar x, btScalar) { return -btScalar(x < 0 ? 0.3 : 0.4) * x; }});
+    TriangleSoup soup;
+    soup.collect(leafOf(shape.shape()), {-2, -2, -2}, {2, 2, 2});
+    SheetProbe probe;
+    probe.m_thickness = 0.5;
+    probe.m_band = 0.02;
+    const Vec3 left = unit(Vec3{0.3, 0, 1});
+    for (const Vec3& path : {Vec3{0, 0, -1e-6}, Vec3{1e-6, 0, -1e-6}, Vec3{0, 0, -0.1}, Vec3{-0.1, 0, -0.1}})
+    {
+        std::vector<SheetContact> touches;
+        probe.m_position = probe.m_rightSide = Vec3{-0.1, 0.2, 0.03} + 0.501 * left;
+        probe.m_path = path;
+        findPointContacts(soup, probe, touches);
+        ASSERT_EQ(touches.size(), 1u);
+        EXPECT_NEAR(norm(touches[0].m_surface.m_normal - left), 0, 1e-6);
+        EXPECT_NEAR(touches[0].m_surface.m_gap, 0.001, 1e-6);
+    }
+    // Far above, it comes to the ridge, or to the other slope.
+    std::vector<SheetContact> touches;
+    probe.m_position = probe.m_rightSide = Vec3{-0.1, 0.2, 0.03} + 1.0 * left;
+    probe.m_path = {0.5, 0, -1};
+    findPointContacts(soup, probe, touches);
+    EXPECT_GT(touches.size(), 1u);
 }
 
 }  // namespace
