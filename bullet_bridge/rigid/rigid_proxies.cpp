@@ -3,7 +3,9 @@
 #include "bullet_bridge/rigid/rigid_proxies.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "BulletDynamics/ConstraintSolver/btTypedConstraint.h"
 #include "BulletDynamics/Dynamics/btRigidBody.h"
 #include "BulletDynamics/Featherstone/btMultiBodyLinkCollider.h"
 #include "LinearMath/btTransformUtil.h"
@@ -93,9 +95,18 @@ void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
         m_history.noteBeforeSolve(*body);
 }
 
+void RigidProxies::noteConstraints(const btTypedConstraint* const* constraints, std::size_t count)
+{
+    m_constrained.clear();
+    for (std::size_t k = 0; k < count; ++k)
+        m_constrained.insert(m_constrained.end(), {&constraints[k]->getRigidBodyA(), &constraints[k]->getRigidBodyB()});
+    std::sort(m_constrained.begin(), m_constrained.end(), std::less<const btRigidBody*>());
+}
+
 bool RigidProxies::isConstrained(const btRigidBody& body) const
 {
-    return body.getNumConstraintRefs() > 0 || (m_rewind && m_rewind->isConstrained(body));
+    return body.getNumConstraintRefs() > 0 ||
+           std::binary_search(m_constrained.begin(), m_constrained.end(), &body, std::less<const btRigidBody*>());
 }
 
 void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
@@ -106,6 +117,8 @@ void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
     m_sources.clear();
     m_byObject.clear();
     m_links.clear();
+    m_constrained.clear();
+    if (rewind) noteConstraints(rewind->presentConstraints().data(), rewind->presentConstraints().size());
 }
 
 int RigidProxies::indexOf(const btCollisionObject& object, double step)

@@ -66,6 +66,10 @@ public:
     /// True if Bullet has moved the object already, while its proxy is at the start of the step.
     bool isRewound(int rigidProxy) const { return m_sources[rigidProxy].m_rewound; }
 
+    /// Notes the constraints among which Bullet solves, until clear(): bodies need not refer to them. clear() notes those
+    /// that `rewind` knows.
+    void noteConstraints(const btTypedConstraint* const* constraints, std::size_t count);
+
     /// True if a constraint of Bullet's is known to act on the body.
     bool isConstrained(const btRigidBody& body) const;
 
@@ -109,6 +113,7 @@ private:
     std::vector<RigidProxy> m_rigidProxies;
     std::vector<Source> m_sources;
     SortedIndex<const btCollisionObject*> m_byObject;  // m_sources by object
+    std::vector<const btRigidBody*> m_constrained;     // bodies of noted constraints, sorted by address
     RigidHistory m_history;
     std::mutex m_beforeMutex;
     std::vector<btVector3> m_linkVelocities;  // scratch

@@ -127,16 +127,16 @@ void RigidRewind::giveFeedback()
 
 void RigidRewind::listReferred()
 {
-    m_referred.clear();
+    m_presentConstraints.clear();
     for (const Noted& noted : m_bodies)
         for (int c = 0; c < noted.m_body->getNumConstraintRefs(); ++c)
-            m_referred.push_back(noted.m_body->getConstraintRef(c));
-    std::sort(m_referred.begin(), m_referred.end(), std::less<const btTypedConstraint*>());
+            m_presentConstraints.push_back(noted.m_body->getConstraintRef(c));
+    std::sort(m_presentConstraints.begin(), m_presentConstraints.end(), std::less<const btTypedConstraint*>());
 }
 
-bool RigidRewind::isReferred(const btTypedConstraint* constraint) const
+bool RigidRewind::isPresent(const btTypedConstraint* constraint) const
 {
-    return std::binary_search(m_referred.begin(), m_referred.end(), constraint, std::less<const btTypedConstraint*>());
+    return std::binary_search(m_presentConstraints.begin(), m_presentConstraints.end(), constraint, std::less<const btTypedConstraint*>());
 }
 
 void RigidRewind::noteWorld(btDynamicsWorld& world)
@@ -148,7 +148,7 @@ void RigidRewind::noteWorld(btDynamicsWorld& world)
     {
         btTypedConstraint& constraint = *world.getConstraint(c);
         const bool holds = indexOf(&constraint.getRigidBodyA()) >= 0 || indexOf(&constraint.getRigidBodyB()) >= 0;
-        if (holds && !isReferred(&constraint)) noteConstraint(constraint);
+        if (holds && !isPresent(&constraint)) noteConstraint(constraint);
     }
     giveFeedback();
 }
@@ -208,9 +208,9 @@ void RigidRewind::indexBodies()
 void RigidRewind::readConstraints()
 {
     listReferred();
-    for (int c = 0; m_world && c < m_world->getNumConstraints(); ++c) m_referred.push_back(m_world->getConstraint(c));
-    std::sort(m_referred.begin(), m_referred.end(), std::less<const btTypedConstraint*>());
-    const auto isGone = [this](const Constraint& known) { return !isReferred(known.m_constraint); };
+    for (int c = 0; m_world && c < m_world->getNumConstraints(); ++c) m_presentConstraints.push_back(m_world->getConstraint(c));
+    std::sort(m_presentConstraints.begin(), m_presentConstraints.end(), std::less<const btTypedConstraint*>());
+    const auto isGone = [this](const Constraint& known) { return !isPresent(known.m_constraint); };
     m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());
     for (Constraint& known : m_known)
     {
@@ -219,8 +219,6 @@ void RigidRewind::readConstraints()
         const btJointFeedback* feedback = isOwn ? &known.m_feedback : constraint.getJointFeedback();
         const int a = indexOf(&constraint.getRigidBodyA()), b = indexOf(&constraint.getRigidBodyB());
         if (a >= 0 && b >= 0) join(a, b);
-        if (a >= 0) m_bodies[a].m_isConstrained = true;
-        if (b >= 0) m_bodies[b].m_isConstrained = true;
         if (feedback && known.m_isEnabled)
         {
             if (a >= 0) explain(m_bodies[a], feedback->m_appliedForceBodyA * btScalar(m_step));

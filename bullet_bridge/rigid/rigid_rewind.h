@@ -57,12 +57,8 @@ public:
         return k >= 0 && m_bodies[k].m_isBack ? &m_bodies[k].m_byBullet : nullptr;
     }
 
-    /// True if a constraint that is known acts on the object.
-    bool isConstrained(const btCollisionObject& object) const
-    {
-        const int k = indexOf(&object);
-        return k >= 0 && m_bodies[k].m_isConstrained;
-    }
+    /// The constraints of noted bodies and of the world since begin(), by address; one may occur more than once.
+    const std::vector<const btTypedConstraint*>& presentConstraints() const { return m_presentConstraints; }
 
     /// True if the object is a noted body.
     bool isNoted(const btCollisionObject& object) const { return indexOf(&object) >= 0; }
@@ -107,7 +103,6 @@ private:
         btScalar m_pushed = 0;           // largest displacement that Bullet may have corrected a penetration by [m]
         int m_parent = 0;                // union-find
         bool m_isMoved = false;          // by Bullet: it is awake
-        bool m_isConstrained = false;
         bool m_isBad = false, m_isBack = false, m_isWoken = false;
     };
 
@@ -130,7 +125,7 @@ private:
     void noteConstraint(btTypedConstraint& constraint);
     void giveFeedback();
     void listReferred();
-    bool isReferred(const btTypedConstraint* constraint) const;
+    bool isPresent(const btTypedConstraint* constraint) const;
     void dropRemoved();
     void readConstraints();
     void readManifolds();
@@ -152,8 +147,8 @@ private:
     std::vector<btCollisionObject*> m_back;
     std::vector<btPersistentManifold*> m_manifolds;
     std::vector<btTypedConstraint*> m_constraints;
-    std::vector<const btCollisionObject*> m_present;   // scratch, sorted by address
-    std::vector<const btTypedConstraint*> m_referred;  // scratch, sorted by address: those that bodies refer to
+    std::vector<const btCollisionObject*> m_present;             // scratch, sorted by address
+    std::vector<const btTypedConstraint*> m_presentConstraints;  // scratch, sorted by address
 };
 
 }  // namespace bullet_fem

@@ -50,14 +50,12 @@ inline constexpr double kUnsolvedJoints = 0.05;
 // --- The compliance W ---
 
 // W may be too stiff by a factor below 2 for outer iterations to converge; it is then scaled, with a margin for
-// directions without impulses, and a share of the scale is kept for the next step [-]. Loses: a body with a factor of a
-// sixteenth of its mass (StaleFactorContact).
-inline constexpr double kTooStiff = 1.5, kScaleMargin = 1.2, kForgetting = 0.99;
-// True over predicted response below which W counts as too soft, and outer iterations do not stand still [-]. Loses:
-// StaleContact.
-inline constexpr double kTooSoft = 0.7;
-// Steps in which W of a body with contacts and joints is that of the present A, after kTooStiff or kTooSoft; maximum
-// product of its nodes and elements, some 5 ms. Loses: beams that are thrown (HardPressedBeam).
+// directions without impulses, and a share of the scale is kept for the next step [-]. W that is too soft by the same
+// factor keeps outer iterations from standing still. Loses: a body with a factor of a sixteenth of its mass
+// (StaleFactorContact), StaleContact.
+inline constexpr double kMaxMisfit = 1.5, kScaleMargin = 1.2, kForgetting = 0.99;
+// Steps in which W of a body with contacts and joints is that of the present A, after a larger misfit; maximum product
+// of its nodes and elements, some 5 ms. Loses: beams that are thrown (HardPressedBeam).
 inline constexpr int kPresentSteps = 20;
 inline constexpr std::size_t kMaxPresentWork = 10'000;
 

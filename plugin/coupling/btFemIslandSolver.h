@@ -45,8 +45,9 @@ public:
     {
         m_islands.select(all, true);
         const std::vector<btCollisionObject*>& together = m_islands.withSoftBodies();
-        btFemContactGroup* begun = btFemCoupling::beginGroup(m_fem, together.data(), static_cast<int>(together.size()),
-                                                             info.m_timeStep, linksToo);
+        const btFemIsland island = {together.data(), static_cast<int>(together.size()), all.m_constraints,
+                                    all.m_constraintCount};
+        btFemContactGroup* begun = btFemCoupling::beginGroup(m_fem, island, info.m_timeStep, linksToo);
         if (!begun) return solve(all, info);
         for (const bool withFem : {false, true})
         {

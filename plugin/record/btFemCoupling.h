@@ -17,6 +17,7 @@ class btFemSoftBodySolver;
 class btFemSplitter;
 class btFemWeldBreaker;
 class btSoftBody;
+class btTypedConstraint;
 struct btFemBodyRecord;
 struct btFemSnapshotScope;
 
@@ -26,13 +27,22 @@ struct btFemStressScratch
     std::vector<bullet_fem::Stress> m_perElement, m_perNode;
 };
 
+/// What Bullet solves together.
+struct btFemIsland
+{
+    btCollisionObject* const* m_objects = nullptr;
+    int m_objectCount = 0;
+    btTypedConstraint* const* m_constraints = nullptr;
+    int m_constraintCount = 0;
+};
+
 /// The internal interface of btFemSoftBodySolver for btFemConstraintSolver, btFemDeformableBodySolver, Bullet's
 /// dispatcher and public functions in other files.
 struct btFemCoupling
 {
     /// See btFemWorldStep::beginGroup.
-    static btFemContactGroup* beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
-                                         double step, bool linksToo);
+    static btFemContactGroup* beginGroup(btFemSoftBodySolver& fem, const btFemIsland& island, double step,
+                                         bool linksToo);
     /// Sets the bodies among which cloth in contact with FEM bodies is searched, instead of those of optimize(); they
     /// must outlive the solver's use.
     static void setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies);

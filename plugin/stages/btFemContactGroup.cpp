@@ -53,6 +53,7 @@ void btFemContactGroup::collect(const Scope& scope)
     m_step = scope.m_step;
     m_records = scope.m_records;
     m_rigid.clear(scope.m_phase, scope.m_rewind);
+    if (scope.m_island) m_rigid.noteConstraints(scope.m_island->m_constraints, scope.m_island->m_constraintCount);
     clearProblem();
     m_bodies.clear();
     for (btFemBodyRecord* record : m_records)
@@ -102,8 +103,9 @@ void btFemContactGroup::findRigidContacts()
 // Every movable body that Bullet solves with the group is a rigid proxy.
 void btFemContactGroup::addIsland(const Scope& scope)
 {
-    for (int k = 0; k < scope.m_islandCount; ++k)
-        if (movableBody(*scope.m_island[k])) m_rigid.indexOf(*scope.m_island[k], m_step);
+    for (int k = 0; scope.m_island && k < scope.m_island->m_objectCount; ++k)
+        if (const btCollisionObject& object = *scope.m_island->m_objects[k]; movableBody(object))
+            m_rigid.indexOf(object, m_step);
     if (!scope.m_rewind) return;
     m_met.clear();
     const auto meet = [this](int rigidProxy)
@@ -213,12 +215,13 @@ void btFemContactGroup::collectJoints(const Scope& scope)
     }
 }
 
-bool btFemContactGroup::holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const
+bool btFemContactGroup::holdsOnly(const btFemIsland& island, bool linksToo) const
 {
     if (m_reachesOut || (!m_rigid.links().isEmpty() && !linksToo)) return false;
+    btCollisionObject* const* end = island.m_objects + island.m_objectCount;
     for (int k = 0; k < static_cast<int>(m_rigid.rigidProxies().size()); ++k)
         if ((movableBody(m_rigid.object(k)) || isMovableLink(m_rigid, k)) &&
-            std::find(bodies, bodies + count, &m_rigid.object(k)) == bodies + count)
+            std::find(island.m_objects, end, &m_rigid.object(k)) == end)
             return false;
     return true;
 }

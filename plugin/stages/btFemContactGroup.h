@@ -18,6 +18,7 @@
 #include "bullet_fem/btFemSolverInfo.h"
 #include "plugin/joints/btFemWeldBreaker.h"
 #include "plugin/record/btFemBodyRecord.h"
+#include "plugin/record/btFemCoupling.h"
 #include "plugin/record/btFemTouches.h"
 
 /// FEM bodies that are solved together: collects their contacts and joints, solves them, and writes the reports. Keeps
@@ -44,8 +45,7 @@ public:
         const btFemRecords& m_all;
         double m_step;  ///< time step of the world [s]
         bullet_fem::RigidPhase m_phase;
-        btCollisionObject* const* m_island = nullptr;  ///< phase `solving`: the objects that Bullet solves
-        int m_islandCount = 0;
+        const btFemIsland* m_island = nullptr;        ///< phase `solving`: what Bullet solves
         bullet_fem::RigidRewind* m_rewind = nullptr;  ///< instead of them: islands put back; those in contact stay so
     };
 
@@ -67,9 +67,9 @@ public:
     /// The bodies that have contacts.
     const std::vector<btFemBodyRecord*>& touching() const { return m_overlapping; }
 
-    /// True if every movable rigid body of the group is one of `bodies`, as is every movable link of a multibody (none
+    /// True if every movable rigid body of the group is in `island`, as is every movable link of a multibody (none
     /// is permitted unless `linksToo`), and no joint connects the group to other active soft bodies.
-    bool holdsOnly(btCollisionObject* const* bodies, int count, bool linksToo) const;
+    bool holdsOnly(const btFemIsland& island, bool linksToo) const;
 
     /// Solves after Bullet's rigid solver, and applies the reactions to the rigid bodies.
     void solve();

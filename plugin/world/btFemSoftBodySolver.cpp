@@ -249,11 +249,11 @@ bool btFemSoftBodySolver::getContactForces(const btSoftBody* body, btAlignedObje
     return known;
 }
 
-btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, btCollisionObject* const* bodies, int count,
-                                             double step, bool linksToo)
+btFemContactGroup* btFemCoupling::beginGroup(btFemSoftBodySolver& fem, const btFemIsland& island, double step,
+                                             bool linksToo)
 {
     fem.m_impl->moveCloth(fem.m_softBodySet);
-    return fem.m_impl->m_step.beginGroup(bodies, count, step, linksToo);
+    return fem.m_impl->m_step.beginGroup(island, step, linksToo);
 }
 
 void btFemCoupling::setClothBodies(btFemSoftBodySolver& fem, const btAlignedObjectArray<btSoftBody*>& bodies)

@@ -67,14 +67,14 @@ void btFemWorldStep::listSweeps(double step)
         if (isPresent(record) && m_kinematicSweeps.sweepOver(*record->m_softBody)) record->m_softBody->activate();
 }
 
-btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo)
+btFemContactGroup* btFemWorldStep::beginGroup(const btFemIsland& island, double step, bool linksToo)
 {
     m_rewindSolver.disable();  // the world's rigid solver solves FEM bodies
     completeWokenBodies(m_registry);
     m_due.clear();
-    for (int k = 0; k < count; ++k)
+    for (int k = 0; k < island.m_objectCount; ++k)
     {
-        const btSoftBody* soft = btSoftBody::upcast(bodies[k]);
+        const btSoftBody* soft = btSoftBody::upcast(island.m_objects[k]);
         btFemBodyRecord* record = soft ? m_registry.find(soft) : nullptr;
         if (!record || !beginFreeMotion(*record, step)) continue;
         record->m_work.m_stage = btFemStage::free;
@@ -83,10 +83,10 @@ btFemContactGroup* btFemWorldStep::beginGroup(btCollisionObject* const* bodies, 
     if (m_due.empty()) return nullptr;
     m_freeMotion.solve(m_due, m_group.softPairs());
     m_active.assign(m_due.begin(), m_due.end());
-    m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving, bodies, count});
+    m_group.collect({m_active, m_registry.records(), step, RigidPhase::solving, &island});
     m_freeMotion.dampTouching(m_group.touching());
     if (m_group.isEmpty()) return nullptr;
-    if (!m_group.holdsOnly(bodies, count, linksToo))
+    if (!m_group.holdsOnly(island, linksToo))
     {
         for (btFemBodyRecord* record : m_active) record->m_reports.m_step.m_flags |= BT_FEM_SOLVED_AFTER;
         return nullptr;
@@ -103,7 +103,7 @@ void btFemWorldStep::solve(double step)
     if (m_rewindSolver.rewind(m_active, step))
     {
         m_group.collect(
-            {m_active, m_registry.records(), step, RigidPhase::solving, nullptr, 0, &m_rewindSolver.islands()});
+            {m_active, m_registry.records(), step, RigidPhase::solving, nullptr, &m_rewindSolver.islands()});
         m_freeMotion.dampTouching(m_group.touching());
         m_rewindSolver.solve(m_group, step);
     }

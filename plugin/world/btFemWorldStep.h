@@ -49,10 +49,10 @@ public:
     }
 
     /// Call within the rigid solver, before it sets up a group of islands: solves the free motion of the FEM bodies
-    /// among `bodies`, and collects their contacts. Returns null if the group cannot be solved together: there are no
+    /// in `island`, and collects their contacts. Returns null if the group cannot be solved together: there are no
     /// FEM bodies, none is in contact, or one is joined to a rigid body of another group or, unless `linksToo`, to a
     /// link of a multibody.
-    btFemContactGroup* beginGroup(btCollisionObject* const* bodies, int count, double step, bool linksToo);
+    btFemContactGroup* beginGroup(const btFemIsland& island, double step, bool linksToo);
 
     /// Call after the rigid bodies have moved: free motion, contact and correction of the bodies that were not in a
     /// group; new positions of all bodies.

@@ -193,8 +193,8 @@ bool SoftBodyContacts::isAboveRounding(const Lesson& lesson) const
 
 void SoftBodyContacts::learn(const Lesson& lesson)
 {
-    const bool softer = lesson.m_trueWork < kTooSoft * lesson.m_predictedWork;
-    const bool stiffer = lesson.m_trueWork > kTooStiff * lesson.m_predictedWork;
+    const bool softer = kMaxMisfit * lesson.m_trueWork < lesson.m_predictedWork;
+    const bool stiffer = lesson.m_trueWork > kMaxMisfit * lesson.m_predictedWork;
     if (!(softer || stiffer) || !isAboveRounding(lesson)) return;
     m_tooSoft = m_tooSoft || softer;
     if (!stiffer) return;
@@ -210,9 +210,9 @@ void SoftBodyContacts::learn(const Lesson& lesson)
 void SoftBodyContacts::judge(const Lesson& lesson, double rigidWork)
 {
     const double ofTrue = lesson.m_trueWork - rigidWork, ofW = lesson.m_predictedWork - rigidWork;
-    const bool isFit = ofTrue > kTooSoft * ofW && ofTrue < kTooStiff * ofW;
+    const bool isFit = kMaxMisfit * ofTrue > ofW && ofTrue < kMaxMisfit * ofW;
     if (isFit || !isAboveRounding(lesson)) return;
-    m_tooSoft = m_tooSoft || !(ofTrue > kTooSoft * ofW);
+    m_tooSoft = m_tooSoft || !(kMaxMisfit * ofTrue > ofW);
     m_body.m_body->m_workspace.scratch().m_presentSteps = kPresentSteps;
     if (m_isPresent) return;
     formPresent();

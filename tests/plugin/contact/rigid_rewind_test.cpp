@@ -325,14 +325,12 @@ const NamedScene kScenes[] = {{"rigidOnSoft", rigidOnSoft},
                               {"limb", limb},
                               {"carriedByAnchors", carriedByAnchors}};
 
-// The scenes with constraints, to which no body refers; without the door, which rebounds in the coupled solve as if it
-// were free (docs/reliability.md, Known failures).
+// The scenes with constraints, to which no body refers.
 std::vector<NamedScene> unreferred()
 {
     std::vector<NamedScene> scenes;
     for (NamedScene scene : kScenes)
     {
-        if (std::string(scene.m_name) == "door") continue;
         RewindScene trial(Coupling::swap);
         scene.m_build(trial);
         scene.m_isReferred = false;
