@@ -60,7 +60,9 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
     const Vec3 downhill = vec3(quatRotate(tilt, btVector3(1, 0, 0)));
     world.step(scene.m_frequency, h);
     const double before = dot(vec3(box.getLinearVelocity()), downhill);
-    for (int frame = 0; frame < scene.m_frequency / 2; ++frame)
+    const int frames = scene.m_frequency / 2;
+    double mean = 0;
+    for (int frame = 0; frame < frames; ++frame)
     {
         world.step(1, h);
         Vec3 friction;
@@ -70,8 +72,11 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
             friction += vec3(fem.contacts(ground)[k].m_frictionImpulse);
             normal += fem.contacts(ground)[k].m_normalImpulse;
         }
-        ASSERT_NEAR(norm(friction) / normal, kFriction, 5e-4 * kFriction) << "frame " << frame;
+        // In one step of a hundred a point of a stiff slab may stick.
+        ASSERT_NEAR(norm(friction) / normal, kFriction, 5e-3 * kFriction) << "frame " << frame;
+        mean += norm(friction) / normal / frames;
     }
+    EXPECT_NEAR(mean, kFriction, 2e-4 * kFriction);
     const double gained = dot(vec3(box.getLinearVelocity()), downhill) - before;
     EXPECT_NEAR(gained / 0.5, kGravity * (std::sin(slope) - kFriction * std::cos(slope)),
                 0.01 * kGravity * std::sin(slope));
