@@ -81,6 +81,15 @@ void sumImpulses(const ContactProblem& problem, const std::vector<RigidProxy>& r
         sources[torsion.m_rigidProxy].m_angularImpulse -= torsion.m_impulse;
 }
 
+// Lists the bodies of constraints, sorted by address.
+void listBodies(const btTypedConstraint* const* constraints, std::size_t count, std::vector<const btRigidBody*>& bodies)
+{
+    bodies.clear();
+    for (std::size_t k = 0; k < count; ++k)
+        bodies.insert(bodies.end(), {&constraints[k]->getRigidBodyA(), &constraints[k]->getRigidBodyB()});
+    std::sort(bodies.begin(), bodies.end(), std::less<const btRigidBody*>());
+}
+
 }  // namespace
 
 void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
@@ -95,21 +104,14 @@ void RigidProxies::noteBeforeSolve(const btCollisionObject& object)
         m_history.noteBeforeSolve(*body);
 }
 
-void RigidProxies::noteConstraints(const btTypedConstraint* const* constraints, std::size_t count)
-{
-    m_constrained.clear();
-    for (std::size_t k = 0; k < count; ++k)
-        m_constrained.insert(m_constrained.end(), {&constraints[k]->getRigidBodyA(), &constraints[k]->getRigidBodyB()});
-    std::sort(m_constrained.begin(), m_constrained.end(), std::less<const btRigidBody*>());
-}
-
 bool RigidProxies::isConstrained(const btRigidBody& body) const
 {
     return body.getNumConstraintRefs() > 0 ||
            std::binary_search(m_constrained.begin(), m_constrained.end(), &body, std::less<const btRigidBody*>());
 }
 
-void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
+void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind, const btTypedConstraint* const* constraints,
+                         std::size_t count)
 {
     m_phase = phase;
     m_rewind = rewind;
@@ -117,8 +119,8 @@ void RigidProxies::clear(RigidPhase phase, const RigidRewind* rewind)
     m_sources.clear();
     m_byObject.clear();
     m_links.clear();
-    m_constrained.clear();
-    if (rewind) noteConstraints(rewind->presentConstraints().data(), rewind->presentConstraints().size());
+    listBodies(constraints, count, m_constrained);
+    if (rewind) listBodies(rewind->presentConstraints().data(), rewind->presentConstraints().size(), m_constrained);
 }
 
 int RigidProxies::indexOf(const btCollisionObject& object, double step)

@@ -35,8 +35,9 @@ public:
     void noteBeforeSolve(const btCollisionObject& object);
 
     /// Forgets all rigid proxies. `rewind`: bodies that it has put back are expected to move as Bullet has moved them;
-    /// must live until the next call.
-    void clear(RigidPhase phase = RigidPhase::moved, const RigidRewind* rewind = nullptr);
+    /// must live until the next call. `constraints`, `count`: those of Bullet's island, to which bodies need not refer.
+    void clear(RigidPhase phase = RigidPhase::moved, const RigidRewind* rewind = nullptr,
+               const btTypedConstraint* const* constraints = nullptr, std::size_t count = 0);
 
     /// Index of an object's rigid proxy; -1 if there is none.
     int find(const btCollisionObject& object) const { return m_byObject.find(&object); }
@@ -66,11 +67,7 @@ public:
     /// True if Bullet has moved the object already, while its proxy is at the start of the step.
     bool isRewound(int rigidProxy) const { return m_sources[rigidProxy].m_rewound; }
 
-    /// Notes the constraints among which Bullet solves, until clear(): bodies need not refer to them. clear() notes those
-    /// that `rewind` knows.
-    void noteConstraints(const btTypedConstraint* const* constraints, std::size_t count);
-
-    /// True if a constraint of Bullet's is known to act on the body.
+    /// True if a constraint acts on the body: one that it refers to, or one given to clear() or known to its `rewind`.
     bool isConstrained(const btRigidBody& body) const;
 
     bool holdsRewound() const

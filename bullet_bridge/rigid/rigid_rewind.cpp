@@ -136,7 +136,8 @@ void RigidRewind::listReferred()
 
 bool RigidRewind::isPresent(const btTypedConstraint* constraint) const
 {
-    return std::binary_search(m_presentConstraints.begin(), m_presentConstraints.end(), constraint, std::less<const btTypedConstraint*>());
+    return std::binary_search(m_presentConstraints.begin(), m_presentConstraints.end(), constraint,
+                              std::less<const btTypedConstraint*>());
 }
 
 void RigidRewind::noteWorld(btDynamicsWorld& world)
@@ -208,7 +209,8 @@ void RigidRewind::indexBodies()
 void RigidRewind::readConstraints()
 {
     listReferred();
-    for (int c = 0; m_world && c < m_world->getNumConstraints(); ++c) m_presentConstraints.push_back(m_world->getConstraint(c));
+    for (int c = 0; m_world && c < m_world->getNumConstraints(); ++c)
+        m_presentConstraints.push_back(m_world->getConstraint(c));
     std::sort(m_presentConstraints.begin(), m_presentConstraints.end(), std::less<const btTypedConstraint*>());
     const auto isGone = [this](const Constraint& known) { return !isPresent(known.m_constraint); };
     m_known.erase(std::remove_if(m_known.begin(), m_known.end(), isGone), m_known.end());

@@ -52,8 +52,8 @@ void btFemContactGroup::collect(const Scope& scope)
     const btFemStopwatch watch;
     m_step = scope.m_step;
     m_records = scope.m_records;
-    m_rigid.clear(scope.m_phase, scope.m_rewind);
-    if (scope.m_island) m_rigid.noteConstraints(scope.m_island->m_constraints, scope.m_island->m_constraintCount);
+    const btFemIsland island = scope.m_island ? *scope.m_island : btFemIsland();
+    m_rigid.clear(scope.m_phase, scope.m_rewind, island.m_constraints, island.m_constraintCount);
     clearProblem();
     m_bodies.clear();
     for (btFemBodyRecord* record : m_records)
