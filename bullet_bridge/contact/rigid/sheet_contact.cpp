@@ -90,28 +90,17 @@ void addEdgesAndCorners(const TriangleSoup& soup, const SheetProbe& probe, std::
                    });
 }
 
-// True if a point that comes to the offset surface of its path's first triangle meets that triangle there, not one
-// beside it: on thick sheets the path's extension may cross another triangle than the one below the point.
-bool meetsOnPath(const TriangleSoup& soup, const SheetProbe& probe, const SoupCrossing& crossing)
-{
-    const SoupTriangle& triangle = soup.triangles()[crossing.m_triangle];
-    const double height = dot(crossing.m_normal, probe.m_rightSide - triangle.m_corners[0]);
-    const double closing = -dot(crossing.m_normal, probe.m_path);
-    const double part = closing > 0 ? std::clamp((height - probe.m_thickness) / closing, 0.0, 1.0) : 0;
-    const Vec3 there = probe.m_rightSide + part * probe.m_path;
-    const SoupPoint foot = nearestOn(triangle, there);
-    return foot.m_onFace || soup.isNearestAround(foot.m_point, there, norm(there - foot.m_point));
-}
-
-// Extends the path by the thickness and the band.
+// Extends the path by the thickness and the band. What the point is within the offset surface of as the step begins is
+// below it, or at its side.
 void addFirstOnPath(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetContact>& touches)
 {
     const double length = norm(probe.m_path);
     if (!(length > 0)) return;
     const Vec3 path = probe.m_path * (1 + (probe.m_thickness + probe.m_band) / length);
     const SoupCrossing crossing = soup.firstCrossing(probe.m_rightSide, probe.m_rightSide + path);
-    if (crossing.m_triangle >= 0 && meetsOnPath(soup, probe, crossing))
-        addPointContact(touches, planeContact(soup, probe, crossing.m_triangle, crossing.m_normal));
+    if (crossing.m_triangle < 0) return;
+    const SheetContact touch = planeContact(soup, probe, crossing.m_triangle, crossing.m_normal);
+    if (touch.m_surface.m_gap >= 0) addPointContact(touches, touch);
 }
 
 }  // namespace
