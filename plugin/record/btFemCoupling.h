@@ -27,7 +27,7 @@ struct btFemStressScratch
     std::vector<bullet_fem::Stress> m_perElement, m_perNode;
 };
 
-/// What Bullet solves together.
+/// Objects and constraints that Bullet solves together.
 struct btFemIsland
 {
     btCollisionObject* const* m_objects = nullptr;

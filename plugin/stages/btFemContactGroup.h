@@ -45,7 +45,7 @@ public:
         const btFemRecords& m_all;
         double m_step;  ///< time step of the world [s]
         bullet_fem::RigidPhase m_phase;
-        const btFemIsland* m_island = nullptr;        ///< phase `solving`: what Bullet solves
+        const btFemIsland* m_island = nullptr;        ///< phase `solving`: that of Bullet
         bullet_fem::RigidRewind* m_rewind = nullptr;  ///< instead of them: islands put back; those in contact stay so
     };
 

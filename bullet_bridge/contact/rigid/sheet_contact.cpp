@@ -90,8 +90,8 @@ void addEdgesAndCorners(const TriangleSoup& soup, const SheetProbe& probe, std::
                    });
 }
 
-// Extends the path by the thickness and the band. What the point is within the offset surface of as the step begins is
-// below it, or at its side.
+// Extends the path by the thickness and the band. A face whose offset surface the point is within already does not
+// count: it is below the point, and known, or beside it.
 void addFirstOnPath(const TriangleSoup& soup, const SheetProbe& probe, std::vector<SheetContact>& touches)
 {
     const double length = norm(probe.m_path);

@@ -72,8 +72,7 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
             friction += vec3(fem.contacts(ground)[k].m_frictionImpulse);
             normal += fem.contacts(ground)[k].m_normalImpulse;
         }
-        // In one step of a hundred a point of a stiff slab may stick.
-        ASSERT_NEAR(norm(friction) / normal, kFriction, 5e-3 * kFriction) << "frame " << frame;
+        ASSERT_NEAR(norm(friction) / normal, kFriction, 5e-4 * kFriction) << "frame " << frame;
         mean += norm(friction) / normal / frames;
     }
     EXPECT_NEAR(mean, kFriction, 2e-4 * kFriction);

@@ -120,9 +120,8 @@ TEST_P(Drum, KeepsTumblingBodiesInside)
     for (int k = 0; k < 3; ++k) deepest[k] = deepestInDrum(GetParam(), 1e-3 * k);
     std::sort(std::begin(deepest), std::end(deepest));
     EXPECT_GT(deepest[0], 0) << "no contact with the drum";
-    const bool isCoarse = std::get<DrumCase>(GetParam()).m_facets == 8;
-    EXPECT_LT(deepest[1], isCoarse ? 0.0015 : 0.0005);
-    EXPECT_LT(deepest[2], isCoarse ? 0.006 : 0.002);
+    EXPECT_LT(deepest[1], 0.0005);
+    EXPECT_LT(deepest[2], 0.002);
 }
 
 std::string nameOfDrum(const testing::TestParamInfo<DrumParameters>& test)
