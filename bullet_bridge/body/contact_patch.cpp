@@ -16,6 +16,9 @@ constexpr double kSizePower = 4;   // between flat sides the patch moves with th
                                    // mean velocity
 constexpr double kMaxLag = 0.5;    // largest lag, in sizes of the smaller side [-]: some three quarters of a ball's
                                    // radius. A ball that turns by more in a step would have its weight beside itself.
+                                   // Longer lags are shortened to a length that falls with the speed again: W has no
+                                   // couples of impulses beside the nodes, and those of fast bodies gained energy from
+                                   // step to step (ContactPatch, SpinningBodies).
 constexpr double kMinInertia = 1e-9;  // regularization of the inertia over its trace, so that collinear nodes have a
                                       // spin
 
@@ -72,7 +75,8 @@ Vec3 patchLag(const ContactPatchSide& a, const ContactPatchSide& b, const Vec3& 
     const Vec3 lag = h * (a.m_velocity - patch);
     const Vec3 across = lag - dot(lag, normal) * normal;
     const double most = kMaxLag * std::min(a.m_size, b.m_size), length = norm(across);
-    return length > most ? (most / length) * across : across;
+    const double excess = std::max(1.0, length / most);
+    return (1 / (excess * excess)) * across;
 }
 
 double roundness(double curvature, double size)
