@@ -165,7 +165,20 @@ void RigidMomentum::addImpulses(const Body& body, const std::vector<Vec3>& impul
 
 void RigidMomentum::addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step)
 {
-    m_components[body.m_model->mesh().nodeComponent()[node]].m_angular += (1 / (1 + step * damping(body))) * impulse;
+    const int component = body.m_model->mesh().nodeComponent()[node];
+    const Vec3 added = (1 / (1 + step * damping(body))) * impulse;
+    m_components[component].m_angular += added;
+    m_added[component] += added;
+}
+
+void RigidMomentum::clearAngularImpulses()
+{
+    std::fill(m_added.begin(), m_added.end(), Vec3());
+}
+
+void RigidMomentum::repeatAngularImpulses()
+{
+    for (std::size_t c = 0; c < m_components.size(); ++c) m_components[c].m_angular += m_added[c];
 }
 
 void RigidMomentum::restore(const Body& body, std::vector<Vec3>& velocity)
@@ -307,6 +320,15 @@ Vec3 RigidMomentum::spin(const Component& component) const
     const bool hangs = component.m_pivot >= 0;
     return component.m_inverseInertia *
            (hangs ? 0.5 * (component.m_angularBefore + component.m_angular) : component.m_angular);
+}
+
+double RigidMomentum::fastestSpin() const
+{
+    double fastest = 0;
+    for (const Component& component : m_components)
+        if (m_anyMovable && component.m_isMovable)
+            fastest = std::max(fastest, norm(component.m_inverseInertia * component.m_angular));
+    return fastest;
 }
 
 void RigidMomentum::addInward(const Body& body, double factor, std::vector<Vec3>& change) const

@@ -17,7 +17,7 @@ namespace bullet_fem
 class RigidMomentum
 {
 public:
-    explicit RigidMomentum(const TetMesh& mesh) : m_components(mesh.componentCount()) {}
+    explicit RigidMomentum(const TetMesh& mesh) : m_components(mesh.componentCount()), m_added(mesh.componentCount()) {}
 
     /// Sets the momentum prescribed by the loads: (1 + h alpha)(p' - p) = h (F - alpha p), and the corresponding
     /// angular momentum about the centre at the positions y, with the kick velocities; for components with fixed nodes
@@ -51,6 +51,11 @@ public:
 
     /// Adds an angular impulse [N m s] to the prescription of the component that a node belongs to.
     void addAngularImpulse(const Body& body, int node, const Vec3& impulse, double step);
+
+    /// Forgets the angular impulses of the last step.
+    void clearAngularImpulses();
+    /// Adds the angular impulses since clearAngularImpulses() again, to the prescription of a second solve.
+    void repeatAngularImpulses();
 
     /// Adds to `velocity` the rigid motion that gives every movable component its prescribed momentum.
     void restore(const Body& body, std::vector<Vec3>& velocity);
@@ -90,6 +95,9 @@ public:
     /// Rigid response to the impulses of a share: linear [1/kg] and angular velocity [1/(kg m)]. Zero for a component
     /// that cannot move.
     Share responseTo(const Share& share) const;
+
+    /// Largest spin of a movable component by the prescribed momentum [rad/s].
+    double fastestSpin() const;
 
     bool isMovable(int component) const { return m_components[component].m_isMovable; }
 
@@ -152,6 +160,7 @@ private:
     void sumImpulses(const Body& body, const std::vector<Vec3>& impulses) const;
 
     mutable std::vector<Component> m_components;
+    std::vector<Vec3> m_added;    // angular momenta by the step's angular impulses, one per component [kg m2/s]
     double m_impulseShare = 1;    // 1 / (1 + h alpha) [-]
     bool m_anyMovable = false;    // for the last prescription; if false, nothing is done
     bool m_hasRestModes = false;  // see hasRestModes()

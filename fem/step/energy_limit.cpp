@@ -191,6 +191,8 @@ void solveFullyDamped(Body& body, const StepSettings& settings)
     solveAlone(motion);
     ImpulseResponse response{&body, &scratch.m_impulses, settings, 0, false, {}};
     solveAlone(response);
+    scratch.m_momentum.repeatAngularImpulses();
+    scratch.m_momentum.restore(body, scratch.m_velocity);
 }
 
 }  // namespace

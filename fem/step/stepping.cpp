@@ -87,6 +87,7 @@ void beginReactions(Body& body, double step)
 void beginImpulses(const FreeMotion& motion)
 {
     std::vector<Vec3>& impulses = motion.m_body->m_workspace.scratch().m_impulses;
+    motion.m_body->m_workspace.scratch().m_momentum.clearAngularImpulses();
     if (motion.m_predicted)
         impulses.assign(motion.m_predicted->begin(), motion.m_predicted->end());
     else

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bullet_fem/fem/step/stepping.h"
+#include "fem/body/step_scratch.h"
 #include "fem/scenes/elasticity_scenes.h"
 
 namespace bullet_fem
@@ -88,6 +89,30 @@ TEST(EnergyLimit, KeepsMomenta)
     EXPECT_TRUE(stepOnce(body));
     EXPECT_LT(norm(linearMomentum(body.m_state) - linear), 1e-12 * norm(linear));
     EXPECT_LT(norm(angularMomentum(body.m_state) - angular), 1e-12 * norm(angular));
+}
+
+// Impulses of contacts act beside the nodes: their couples are no impulses on nodes.
+TEST(EnergyLimit, KeepsTheCouplesOfContacts)
+{
+    for (const bool isPinned : {false, true})
+    {
+        const auto pin = [isPinned](const Vec3& X) { return isPinned && norm(X) == 0; };
+        Body body = makeBar(1e9, pin);
+        body.m_loads.m_isHeld = true;
+        giveBendingVelocity(body, 60);
+        const Vec3 before = angularMomentum(body.m_state), couple = {1, 200, -100};
+        StepSettings settings;
+        settings.m_step = kStep;
+        settings.m_numericalDamping = 0;
+        solveFreeMotion(body, settings);
+        StepScratch& scratch = body.m_workspace.scratch();
+        scratch.m_momentum.addAngularImpulse(body, 1, couple, kStep);
+        scratch.m_momentum.restore(body, scratch.m_velocity);
+        StepEnd end = {&body, settings};
+        finishSteps(&end, 1);
+        EXPECT_TRUE(end.m_isShortened);
+        EXPECT_LT(norm(angularMomentum(body.m_state) - before - couple), 1e-9 * norm(couple)) << isPinned;
+    }
 }
 
 // The work of impulses and loads counts: a bar at rest may take it as kinetic energy.
