@@ -55,11 +55,10 @@ bool canBeBatched(const StepEnd& end)
 
 bool areEqual(const FreeMotion& a, const FreeMotion& b)
 {
-    const auto variation = [](const FreeMotion& motion)
-    { return motion.m_body->m_workspace.scratch().m_stepVariation; };
-    const StepLoads &loadsA = a.m_body->m_loads, &loadsB = b.m_body->m_loads;
-    return areJobsEqual(a, b) && variation(a) == variation(b) && loadsA.m_isHeld == loadsB.m_isHeld &&
-           loadsA.m_isInContact == loadsB.m_isInContact;
+    const StepScratch &scratchA = a.m_body->m_workspace.scratch(), &scratchB = b.m_body->m_workspace.scratch();
+    return areJobsEqual(a, b) && scratchA.m_stepVariation == scratchB.m_stepVariation &&
+           scratchA.m_isTurned == scratchB.m_isTurned &&
+           a.m_body->m_loads.m_isInContact == b.m_body->m_loads.m_isInContact;
 }
 bool areEqual(const ImpulseResponse& a, const ImpulseResponse& b)
 {

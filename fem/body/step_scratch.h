@@ -63,8 +63,8 @@ struct StepScratch
     /// [m].
     std::vector<Vec3> m_kickPosition;
     std::vector<Vec3> m_kickVelocity;  ///< velocities there before the forces act, fixed nodes' at the begin [m/s]
-    /// Movable components turn exactly; false for bodies in contact or held (StepLoads::m_leastDamping), whose nodes
-    /// move along chords, as their contacts and joints expect.
+    /// Movable components turn exactly; false for bodies in contact or held (StepLoads::m_isHeld) that do not turn far,
+    /// whose nodes move along chords, as their contacts and joints expect: see chooseTurning().
     bool m_isTurned = true;
     bool m_isJoined = false;           ///< joints act on the body in this step: see findChange()
     std::vector<Vec3> m_drift;         ///< the nodes move with theta m_velocity + m_drift [m/s]; see noteMeanVelocity()

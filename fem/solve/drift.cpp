@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The BulletFEM authors
 #include "fem/solve/drift.h"
 
+#include <algorithm>
+
 #include "fem/body/step_coefficients.h"
 #include "fem/body/step_scratch.h"
 #include "fem/solve/warped_compliance.h"
@@ -11,6 +13,10 @@ namespace bullet_fem
 
 namespace
 {
+
+// Turn in a step from which on held bodies turn along arcs [rad]. Chords would stretch them by more than a tenth, and
+// give them the energy of that (SpinningBodies, AnchoredBlade). From .25 on balls roll too slowly (Rolling).
+constexpr double kFarTurn = 0.5;
 
 // Splits an external change of velocities, which acts as impulses: its rigid part is in `velocity` at once, and the
 // rest in m_strained.
@@ -50,6 +56,19 @@ void moveOn(double time, const std::vector<Vec3>& x, const std::vector<Vec3>& v,
 
 }  // namespace
 
+// The spin of a body whose nodes are about as fast as the first one needs no measure.
+void chooseTurning(Body& body, double step)
+{
+    StepScratch& scratch = body.m_workspace.scratch();
+    scratch.m_isTurned = !body.m_loads.m_isHeld;
+    const std::vector<Vec3>& v = body.m_state.m_v;
+    const double slow = kFarTurn * body.m_model->mesh().shortestHeight() / step;
+    const auto isSlow = [&](const Vec3& vi) { return norm(vi - v.front()) < slow; };
+    if (scratch.m_isTurned || std::all_of(v.begin(), v.end(), isSlow)) return;
+    scratch.m_momentum.measure(body, step, body.m_state.m_x, body.m_state.m_v);
+    scratch.m_isTurned = step * scratch.m_momentum.fastestSpin() > kFarTurn;
+}
+
 void beginDrift(Body& body, const StepSettings& settings)
 {
     StepScratch& scratch = body.m_workspace.scratch();
@@ -59,7 +78,6 @@ void beginDrift(Body& body, const StepSettings& settings)
     v = s.m_v;
     scratch.m_isStrained = !body.m_loads.m_priorVelocity.empty();
     if (scratch.m_isStrained) takeOutsideChange(body, settings.m_step, v);
-    scratch.m_isTurned = !body.m_loads.m_isHeld;
     scratch.m_isJoined = false;
     scratch.m_led.find(body.m_model->mesh(), s, body.m_loads, settings.m_step);
     std::vector<Vec3>& end = scratch.m_velocity;

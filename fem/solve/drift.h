@@ -11,6 +11,9 @@ namespace bullet_fem
 /// velocities that they cause. Both parts turn movable components exactly (RigidMomentum::advance()). All functions
 /// write to the body's scratch.
 
+/// Decides whether the body's components turn exactly in a step [s]: not if it is held, unless it turns far.
+void chooseTurning(Body& body, double step);
+
 /// Kick positions y and velocities: x and v after the share 1 - theta of the step without forces; fixed nodes move
 /// towards their targets. Without the strain of an external change of velocities, which acts as impulses m_strained /
 /// m at y.

@@ -132,6 +132,7 @@ void solveFreeMotions(FreeMotion* motions, int count)
     {
         noteStep(*motions[k].m_body, motions[k].m_settings.m_step);
         chooseDamping(*motions[k].m_body, motions[k].m_settings);
+        chooseTurning(*motions[k].m_body, motions[k].m_settings.m_step);
         beginReactions(*motions[k].m_body, motions[k].m_settings.m_step);
         beginImpulses(motions[k]);
     }

@@ -79,8 +79,8 @@ struct StepLoads
     /// Node velocities before an external change of BodyState::m_v since the last step [m/s], so that the change acts
     /// as impulses. Empty: no change, or the change acts within one step together with the forces.
     std::vector<Vec3> m_priorVelocity;
-    /// In contact or held: the nodes move along chords, as contacts and joints expect, instead of turning exactly with
-    /// their body (docs/theory.md, Chords).
+    /// In contact or held: unless the body turns far, its nodes move along chords, as contacts and joints expect,
+    /// instead of turning exactly with it (docs/theory.md, Chords).
     bool m_isHeld = false;
     /// In contact, and m_isHeld: the length that chords add in a step with numerical damping counts as strain
     /// (docs/theory.md, Chords).
