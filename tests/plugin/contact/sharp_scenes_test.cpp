@@ -312,8 +312,8 @@ TEST_P(CubeOnItsLike, Rests)
     FemWorld world(WorldClass::softRigid, Coupling::coupled);
     Grounds grounds;
     std::vector<btVector3> corners;
-    for (const Vec3& x : SharpSolid(squareAt(0, 0, 0.5 * foot), -1, squareAt(0, 0, 0.5), 0).triangles())
-        corners.push_back(bulletVector(x));
+    const SharpSolid solid(squareAt(0, 0, 0.5 * foot), -1, squareAt(0, 0, 0.5), 0);
+    for (const Vec3& x : solid.triangles()) corners.push_back(bulletVector(x));
     const btRigidBody& ground = grounds.addTriangles(world, corners, false);
     const double width = 1 + difference;
     btSoftBody& body = *btFemHelpers::createFromTetMesh(
