@@ -74,7 +74,7 @@ TEST_P(RigidSlide, HasCoulombsForceAndTheNetAcceleration)
             normal += fem.contacts(ground)[k].m_normalImpulse;
         }
         const double error = std::abs(norm(friction) / normal - kFriction);
-        ASSERT_LT(error, 0.05 * kFriction) << "frame " << frame;
+        ASSERT_LT(error, 5e-3 * kFriction) << "frame " << frame;
         lapses += error > 5e-4 * kFriction;
         mean += norm(friction) / normal / frames;
     }

@@ -49,7 +49,7 @@ TEST_P(ShotAtASlab, StaysOnItsSide)
             EXPECT_GT(rigid.getLinearVelocity().z(), -0.02 * projectile.m_speed) << "it was stopped";
             EXPECT_TRUE(allFinite(soft));
         }
-    EXPECT_LE(inside, 1);  // of 15 shots; see docs/reliability.md, Known failures
+    EXPECT_LE(inside, projectile.m_speed < 100 ? 0 : 1);  // of 15 shots; see docs/reliability.md, Known failures
 }
 
 INSTANTIATE_TEST_SUITE_P(Tunnelling, ShotAtASlab,

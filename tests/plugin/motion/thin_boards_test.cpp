@@ -144,14 +144,14 @@ TEST_P(ThinBoards, StopCubes)
             rise = std::max(rise, centerOf(seesaw.light()).z);
         }
         passes += passed;
-        if (passed) continue;
         EXPECT_LT(rise, highest);  // by the energy of the heavy cube
         if (thickness > 0.05)
         {
             EXPECT_LT(deepest, thickness / 2);
         }
     }
-    EXPECT_LE(passes, thickness < kMayBePassed ? 1 : 0);  // see docs/reliability.md, Known failures
+    const bool mayPass = thickness < kMayBePassed && boardStarts().size() == kStarts;
+    EXPECT_LE(passes, mayPass ? 1 : 0);  // see docs/reliability.md, Known failures
 }
 
 std::string caseName(const testing::TestParamInfo<BoardCase>& suite)
