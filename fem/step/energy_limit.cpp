@@ -18,8 +18,8 @@ namespace
 {
 
 // Gain of energy that is accepted, as a share of the energy before the step and the work in it [-]: of bodies that roll
-// and swing along chords, and of held ones that turn far and of distorted ones. Without the second, these gain several
-// times their energy within seconds (SpinningPair, EnergyLimit).
+// and swing along chords, and of distorted ones. Without the second, these gain several times their energy within
+// seconds (EnergyLimit).
 constexpr double kMaxEnergyGain = 1, kMaxGainOfDistorted = 0.01;
 
 // Root mean square stretch from which on an element is distorted [-]; so is one that is inside out. With 3 bodies of
@@ -66,8 +66,7 @@ public:
         removeRigidVelocity(m_body, w);
         const double energy = chordEnergy(Vec3());
         if (isBounded && energy <= kMaxGainOfDistorted * given) return true;
-        const bool turnsFar = m_body.m_loads.m_isHeld && m_scratch.m_isTurned;
-        if (!turnsFar && !isDistorted()) return energy <= kMaxEnergyGain * given;
+        if (!isDistorted()) return energy <= kMaxEnergyGain * given;
         m_maxGain = kMaxGainOfDistorted;
         return false;
     }
